@@ -56,8 +56,9 @@ std::vector<float> share_with_first(const std::vector<Member>& column,
   const bool taught = !column.empty() && column.front().panel->id == PanelId::lesson &&
                       column.front().form == Member::Form::open;
   if (!taught) return share_height(wishes, available);
-  constexpr float least_beside = 2 * least_open;  // of each other panel
-  const float kept = least_beside * float(wishes.size() - 1);
+  constexpr float least_beside = 2 * least_open;  // of each other panel that wishes for as much
+  float kept = 0;
+  for (size_t i = 1; i < wishes.size(); ++i) kept += std::min(wishes[i], least_beside);
   const float lesson = std::min(wishes.front(), std::max(available - kept, least_open));
   std::vector<float> out = share_height({wishes.begin() + 1, wishes.end()}, available - lesson);
   out.insert(out.begin(), std::min(lesson, available));

@@ -104,7 +104,9 @@ std::vector<Quantity> quantities_of_sensors(const Frame& frame) {
     const size_t count = sensor_values(sensor).size();
     for (size_t k = 0; k < count; ++k) {
       const SensorValue value = sensor_values(sensor)[k];
-      out.push_back({fmt::format("{}: {}", sensor.name, value.name), std::string(value.unit),
+      std::string words(value.name);
+      std::ranges::replace(words, '_', ' ');
+      out.push_back({fmt::format("{}: {}", sensor.name, words), std::string(value.unit),
                      [id = sensor.id, k](F f) -> std::optional<double> {
                        if (!f.sensors) return std::nullopt;
                        const auto at = std::ranges::find(*f.sensors, id, &SensorFrame::id);

@@ -34,7 +34,8 @@ std::string label_of(std::string_view name) {
   if (name == "euler_deg") return "turned about x, y, z";
   if (name.ends_with("_deg")) name.remove_suffix(4);
   std::string label(name);
-  std::ranges::replace(label, '_', ' ');
+  for (char& c : label)
+    if (c == '_' || c == '.') c = ' ';  // a point before the place in a list
   return label;
 }
 

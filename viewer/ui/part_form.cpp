@@ -51,14 +51,12 @@ class PartWidgets : public ParameterWidgets {
   }
   template <class T>
   void field(std::vector<T>& values, const Parameter& p) {
-    inner(p, [&] {
-      for (size_t i = 0; i < values.size(); ++i) {
-        Parameter one = p;
-        const std::string name = fmt::format("{}", i);
-        one.name = name;
-        field(values[i], one);
-      }
-    });
+    for (size_t i = 0; i < values.size(); ++i) {
+      Parameter one = p;
+      const std::string name = fmt::format("{}.{}", p.name, i);
+      one.name = name;
+      field(values[i], one);
+    }
     more_or_less(values, p);
   }
   /// Files may turn by other ways; people read angles.

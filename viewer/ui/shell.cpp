@@ -26,7 +26,9 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   const float top = ImGui::GetCursorPosY();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   ImGui::SetCursorPosX(0);
-  // The scrollbar stands at the edge of the panel, the contents keep their distance from it.
+  // The scrollbar stands at the edge of the panel, where its own clipping would hide it; the
+  // contents keep their distance from it.
+  ImGui::PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, false);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding.x, 0));
   ImGui::BeginChild("##contents", ImVec2(r.width, std::max(r.height - top, 1.0f)), false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav |
@@ -39,6 +41,7 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   const float end = ImGui::GetCursorPosY() - spacing;
   height = std::ceil(top + end);
   ImGui::EndChild();
+  ImGui::PopClipRect();
 }
 
 void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {

@@ -89,6 +89,12 @@ void place_tooltip(float width) {
                           {at_left ? 1.0f : 0.0f, 0.5f});
 }
 
+std::string fixed_text(double x, int decimals) {
+  // -0.00 says no more than 0.00
+  if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
+  return fmt::format("{:.{}f}", x, decimals);
+}
+
 }  // namespace
 
 void tooltip_with_key(PanelContext& context, std::string_view text, std::string_view shortcut) {
@@ -135,11 +141,11 @@ bool icon_button(PanelContext& context, std::string_view name, Icon icon, std::s
 }
 
 bool word_button(PanelContext& context, std::string_view name, const char* text, bool lit,
-                 std::string_view tooltip, std::string_view shortcut) {
+                 std::string_view tooltip, std::string_view shortcut, float height) {
   ImGui::PushID(std::string(name).c_str());
   ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::accent_soft : 0u);
   ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::accent : palette::dim);
-  const bool clicked = ImGui::Button(text, ImVec2(0, 30));
+  const bool clicked = ImGui::Button(text, ImVec2(0, height));
   ImGui::PopStyleColor(2);
   context.host.mark(name);
   tooltip_with_key(context, tooltip, shortcut);
@@ -178,6 +184,27 @@ void value_row(std::string_view label, std::string_view value, uint32_t colour) 
   if (colour) ImGui::PopStyleColor();
 }
 
+void vector_row(std::string_view label, const Vec3& v, int decimals) {
+  const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  // Room for two figures before the point and a sign; where there is not enough they stand closer.
+  const float place = width_of("  " + fixed_text(-88, decimals));
+  const std::string numbers[] = {fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
+                                 fixed_text(v.z(), decimals)};
+  float widest = 0;
+  for (const std::string& n : numbers) widest = std::max(widest, width_of("  " + n));
+  const float right = ImGui::GetContentRegionMax().x;
+  const float label_end = ImGui::GetCursorPosX() + width_of(std::string(label));
+  if (widest > place || label_end > right - 3 * place)
+    return value_row(label, vector_text(v, decimals));
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::TextUnformatted(label.data(), label.data() + label.size());
+  ImGui::PopStyleColor();
+  for (int k = 0; k < 3; ++k) {
+    ImGui::SameLine(right - float(2 - k) * place - width_of(numbers[k]));
+    ImGui::TextUnformatted(numbers[k].c_str());
+  }
+}
+
 bool toggle(PanelContext& context, std::string_view name, const char* label, bool& on,
             std::string_view hint) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -203,12 +230,17 @@ bool toggle(PanelContext& context, std::string_view name, const char* label, boo
   return clicked;
 }
 
-void note(std::string_view text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+/// Dear ImGui alone would break numbers at their points, too.
+void wrapped(std::string_view text, uint32_t colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::TextUnformatted(in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+void note(std::string_view text) {
+  wrapped(text, palette::dim);
 }
 
 void small_text(PanelContext& context, std::string_view text, uint32_t colour) {
@@ -234,6 +266,24 @@ std::string shortened(std::string_view text, float width) {
     i = next;
   }
   return std::string(text.substr(0, end)) + "…";
+}
+
+std::string in_lines(std::string_view text, float width) {
+  std::string out;
+  size_t line = 0;  // where the last one begins
+  while (true) {
+    const size_t end = text.find_first_of(" \n"), before = out.size();
+    out += text.substr(0, end);
+    if (before > line &&
+        ImGui::CalcTextSize(out.data() + line, out.data() + out.size()).x > width) {
+      out[before - 1] = '\n';
+      line = before;
+    }
+    if (end == std::string_view::npos) return out;
+    out += text[end];
+    if (text[end] == '\n') line = out.size();
+    text.remove_prefix(end + 1);
+  }
 }
 
 std::string duration_text(double s) {
@@ -278,12 +328,8 @@ std::string round_text(double value, std::string_view unit) {
 }
 
 std::string vector_text(const Vec3& v, int decimals) {
-  const auto number = [&](double x) {
-    // -0.00 says no more than 0.00
-    if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
-    return fmt::format("{:.{}f}", x, decimals);
-  };
-  return fmt::format("{}  {}  {}", number(v.x()), number(v.y()), number(v.z()));
+  return fmt::format("{}  {}  {}", fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
+                     fixed_text(v.z(), decimals));
 }
 
 }  // namespace tumble

@@ -350,3 +350,58 @@ TEST_CASE("a camera that followed a deleted body follows none, and again when th
   CHECK(read_file(file)->find("\"follow\": \"ball\"") != std::string::npos);
   check_no_faults(*device);
 }
+
+TEST_CASE("a number of the scene that was chosen anew is taken back and chosen again") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const std::string file = (rig.folder.path() / "mine.json").string();
+  const std::string text = R"({"tumble_scene": 1, "parameters": {"h": {"value": 2, "min": 1}},
+  "bodies": {"ball": {"shape": {"type": "sphere", "radius": 1}, "position": [0, "$h", 0]},
+             "box": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [5, 1, 0]}},
+  "cameras": {"main": {"position": [0, 2, 9], "target": [0, 1, 0]}}})";
+  REQUIRE(write_file(file, std::string_view(text)).ok());
+  rig.app->open(file);
+  rig.play("key Space\nwait 3\nkey R\nwait 2");
+  const auto mass = [&] {
+    const World& world = rig.app->session().world();
+    return world.body(world.find_body("ball"))->mass;
+  };
+  const BodyId ball = rig.app->session().world().find_body("ball");
+  rig.app->ask(EditBody{ball, "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
+  rig.play("wait 60");
+  rig.app->ask(ChangeParameter{"h", 4});
+  rig.play("wait 3");
+  rig.app->ask(ChangeParameter{"h", 6});
+  rig.play("wait 3");
+  CHECK(rig.height("ball") == 6);
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(says(rig, "Taken back: Change h"));
+  CHECK(rig.height("ball") == 4);
+  rig.play("key Ctrl+Z\nwait 3");
+  // With what was done to the scene before, standing still as before.
+  CHECK(rig.height("ball") == 2);
+  CHECK(mass() == doctest::Approx(3));
+  CHECK(rig.app->session().paused());
+  CHECK(rig.wished.empty());
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(says(rig, "nothing to take back"));
+  rig.play("key Ctrl+Shift+Z\nwait 3");
+  CHECK(says(rig, "Done again: Change h"));
+  CHECK(rig.height("ball") == 4);
+  // A deed is taken back before the choice that it came after, and ends what could be done again.
+  rig.app->ask(EditBody{rig.app->session().world().find_body("ball"), "Change mass of ball",
+                        [](BodyDef& d) { d.mass = 7; }});
+  rig.play("wait 3\nkey Ctrl+Z\nwait 3");
+  CHECK(mass() == doctest::Approx(3));
+  CHECK(rig.height("ball") == 4);
+  rig.play("key Ctrl+Shift+Z\nwait 3\nkey Ctrl+Shift+Z\nwait 3");
+  CHECK(mass() == doctest::Approx(7));
+  CHECK(rig.height("ball") == 4);
+  CHECK(says(rig, "nothing to do again"));
+  // Another scene has nothing of it.
+  rig.app->open("second");
+  rig.play("wait 3\nkey Ctrl+Z\nwait 3");
+  CHECK(rig.app->scene_name() == "second");
+  CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}

@@ -332,3 +332,27 @@ TEST_CASE("what would not open again is not saved, and says why") {
   CHECK(*read_file(file) != before);
   check_no_faults(*b.device);
 }
+
+TEST_CASE("saving under another name warns of a file that is there, and wants a name") {
+  Laboratory b;
+  const auto there = b.rig.folder.path() / "there.json";
+  REQUIRE(write_file(there, std::string_view("{}")).ok());
+  b.play("click build.sphere\nwait 2\nclick " + b.at({2, 0, 0}) +
+         "\nwait 3\nkey Esc\nwait 2\nkey Ctrl+S\nwait 3");
+  const UiState& ui = b.rig.app->ui_state();
+  REQUIRE(ui.save_file == b.file);
+  CHECK_FALSE(b.rig.app->ui().find("save.warning"));
+  b.play("click save.file\nwait 2\nkey Ctrl+A\ntext " + there.string() + "\nwait 3");
+  CHECK(b.rig.app->ui().find("save.warning"));
+  b.play("text x\nwait 3");
+  CHECK_FALSE(b.rig.app->ui().find("save.warning"));
+  // A field that was emptied stays so.
+  const std::string before = *read_file(b.file);
+  b.play("key Ctrl+A\nwait 1\nkey Backspace\nwait 2\nclick save.write\nwait 3");
+  CHECK(ui.save_file.empty());
+  CHECK(ui.save_fault.find("name is missing") != std::string::npos);
+  CHECK(ui.shows(PanelId::save));
+  CHECK(*read_file(b.file) == before);
+  CHECK(*read_file(there) == "{}");
+  check_no_faults(*b.device);
+}

@@ -167,3 +167,21 @@ TEST_CASE("a world that behaves otherwise is found out") {
   REQUIRE(checks.ok());
   CHECK(std::ranges::count_if(*checks, [](const auto& c) { return !c.holds(); }) == 1);
 }
+
+TEST_CASE("curves of a page outlive its choice and pages that plot nothing") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.app->open(lesson_scene(rig));
+  const auto& series = rig.app->measures().series();
+  rig.play("wait 3\nclick lesson.page.1\nwait 3");
+  REQUIRE(series.size() == 1);
+  rig.app->ask(AddNamedCurve{"bodies.ball.position.y"});
+  rig.play("click lesson.page.2\nwait 3");
+  CHECK(series.size() == 2);
+  rig.play("click lesson.choose\nwait 5");
+  REQUIRE(series.size() == 1);
+  CHECK(series[0].quantity.name == "bodies.ball.speed");
+  CHECK(rig.app->ui_state().shows(PanelId::measure));
+  check_no_faults(*device);
+}

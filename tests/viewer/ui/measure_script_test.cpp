@@ -1,5 +1,6 @@
 // Reference: free fall in closed form (the realtime stepper's own, v before x), and the world
 // itself.
+#include "tests/viewer/ui/laboratory.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -48,4 +49,21 @@ TEST_CASE("a height and a speed are plotted tick by tick, and kept where time go
   rig.play("key Del\nkey .\nkey .\nwait 2");
   CHECK(series(0).values.size() <= 3);
   check_no_faults(*device);
+}
+
+TEST_CASE("what was built in the window is found by name, to be plotted") {
+  Laboratory b;
+  b.play("click build.gate\nwait 2\nclick " + b.at({0, 0, 3.5}) + "\nwait 3\nkey Esc\nwait 3");
+  b.body("sphere", "sphere");
+  b.play("key P\nwait 3\nclick measure.search\nwait 2\ntext gate.forw\nwait 3");
+  REQUIRE(b.rig.app->ui().find("measure.found.sensors.gate.forward"));
+  b.play("key Enter\nwait 3\nclick measure.search\nwait 2\ntext sphere.position.y\nwait 3");
+  REQUIRE(b.rig.app->ui().find("measure.found.bodies.sphere.position.y"));
+  b.play("key Enter\nwait 3\nkey .\nwait 3");
+  const auto& series = b.rig.app->measures().series();
+  REQUIRE(series.size() == 2);
+  CHECK(series[0].values.back() == 0);
+  CHECK(series[1].quantity.unit == "m");
+  CHECK(series[1].values.back() == float(b.rig.height("sphere")));
+  check_no_faults(*b.device);
 }

@@ -242,3 +242,18 @@ TEST_CASE("a word of the bar leads to bookmarks, loop and flight") {
   CHECK(rig.app->ui_state().shows(PanelId::bookmarks));
   REQUIRE(rig.app->locate("bookmarks.key"));
 }
+
+TEST_CASE("a panel that is too long has a scrollbar at its edge, which can be dragged") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 500, 1};
+  rig.play("click bar.settings\nwait 5");
+  const auto panel = rig.app->ui().find("panel.settings");
+  REQUIRE(panel);
+  REQUIRE(rig.app->ui().find("settings.tick_hz"));
+  const int x = int(panel->x + panel->width) - 4, y = int(panel->y) + 60;
+  rig.play("drag " + std::to_string(x) + "," + std::to_string(y) + " 0 300\nwait 3");
+  CHECK_FALSE(rig.app->ui().find("settings.tick_hz"));
+  rig.play("drag " + std::to_string(x) + "," + std::to_string(y + 300) + " 0 -320\nwait 3");
+  CHECK(rig.app->ui().find("settings.tick_hz"));
+}

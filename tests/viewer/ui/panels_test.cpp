@@ -256,3 +256,109 @@ TEST_CASE("a tap shorter than a frame still reaches the panels") {
   REQUIRE(requests.size() == 1);
   CHECK(std::get<Action>(requests[0]) == Action::toggle_pause);
 }
+
+TEST_CASE("what a file calls by words with strokes and points is read as words") {
+  CHECK(label_of("contact_damping_ratio") == "contact damping ratio");
+  CHECK(label_of("size.0") == "size 0");
+  CHECK(label_of("euler_deg") == "turned about x, y, z");
+}
+
+TEST_CASE("beside a lesson others keep what they need, and no more") {
+  UiState state;
+  for (const PanelId id : {PanelId::lesson, PanelId::measure}) state.shows(id) = true;
+  state.content_height[size_t(PanelId::lesson)] = 900;
+  for (const float plot : {80.0f, 200.0f, 240.0f, 700.0f}) {
+    state.content_height[size_t(PanelId::measure)] = plot;
+    const auto panels = layout_ui(1280, 720, state).panels;
+    REQUIRE(panels.size() == 2);
+    CHECK(panels[0].panel->id == PanelId::lesson);
+    CHECK(panels[1].rect.height == doctest::Approx(std::min(plot, 240.0f)));
+    CHECK(panels[1].rect.y + panels[1].rect.height == doctest::Approx(710));
+  }
+}
+
+TEST_CASE("text is broken between words only, and numbers stay whole") {
+  UiHost host;
+  UiDrawList out;
+  host.begin(640, 400, 1.0 / 60, {}, false);
+  const auto width_of = [](std::string_view s) {
+    return ImGui::CalcTextSize(s.data(), s.data() + s.size()).x;
+  };
+  const std::string text = "each second its speed grows by 9.81 m/s,\nand 1e-3 is .5 of 2e-3.";
+  size_t broken = 0;
+  for (float width = 0; width < 400; width += 3) {
+    const std::string lines = in_lines(text, width);
+    REQUIRE(lines.size() == text.size());
+    for (size_t i = 0, line = 0; i <= lines.size(); ++i) {
+      if (i < lines.size() && lines[i] != text[i]) CHECK((lines[i] == '\n' && text[i] == ' '));
+      if (i < lines.size() && lines[i] != '\n') continue;
+      const std::string one = lines.substr(line, i - line);
+      CHECK((width_of(one) <= width || one.find(' ') == std::string::npos));
+      // As much as there is room for.
+      const size_t next = i == lines.size() ? i : lines.find_first_of(" \n", i + 1);
+      if (i < lines.size() && text[i] == ' ') {
+        ++broken;
+        CHECK(width_of(std::string_view(text).substr(line, next - line)) > width);
+      }
+      line = i + 1;
+    }
+  }
+  CHECK(broken > 100);
+  host.end(out);
+}
+
+TEST_CASE("three numbers in a row keep their places when one of them gets a sign") {
+  UiHost host;
+  const auto drawn = [&](const Vec3& v) {
+    UiDrawList out;
+    for (int k = 0; k < 2; ++k) {
+      host.begin(640, 400, 1.0 / 60, {}, false);
+      ImGui::SetNextWindowSize({292, 100});
+      ImGui::Begin("##row", nullptr, ImGuiWindowFlags_NoDecoration);
+      vector_row("velocity [m/s]", v, 3);
+      ImGui::End();
+      host.end(out);
+    }
+    return out;
+  };
+  // Four corners of each letter: those of the last two numbers, of ten letters.
+  const UiDrawList a = drawn({1, 2, 3}), b = drawn({-71, 2, 3});
+  REQUIRE(b.vertices.size() == a.vertices.size() + 8);
+  for (size_t i = 1; i <= 40; ++i) {
+    CHECK(a.vertices[a.vertices.size() - i].x == b.vertices[b.vertices.size() - i].x);
+    CHECK(a.vertices[a.vertices.size() - i].y == b.vertices[b.vertices.size() - i].y);
+  }
+  // What is too long for that is still there whole.
+  CHECK(drawn({-12345, 2, 3}).vertices.size() == a.vertices.size() + 5 * 4);
+}
+
+TEST_CASE("the bar over two pictures side by side shows nothing of what is below it") {
+  UiHost host;
+  UiModel model;
+  model.frame = std::make_shared<Frame>();
+  const std::vector<SceneItem> scenes;
+  const History history;
+  const Measures measures;
+  const WorldComparison comparison{};
+  model.scenes = &scenes;
+  model.history = &history;
+  model.measures = &measures;
+  UiState state;
+  const auto least_alpha = [&] {
+    UiDrawList out;
+    std::vector<UiRequest> requests;
+    host.begin(1280, 800, 1.0 / 60, {}, false);
+    PanelContext context{host, model, state, requests, 1.0 / 60};
+    draw_ui(context, 1280, 800);
+    host.end(out);
+    uint32_t least = 255;
+    for (const auto& v : out.vertices)
+      if (v.x == 0 && v.y == 0) least = std::min(least, v.rgba >> 24);
+    return least;
+  };
+  CHECK(least_alpha() < 255);
+  model.comparison = &comparison;
+  CHECK(least_alpha() < 255);
+  state.compared_as = ComparedAs::beside;
+  CHECK(least_alpha() == 255);
+}

@@ -4,6 +4,7 @@
 #include "viewer/capture/atomic_file.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -232,4 +233,43 @@ TEST_CASE("plots stand apart, together or against each other, go to moments, and
   REQUIRE_FALSE(rig.app->captured().empty());
   CHECK(rig.app->captured().back().filename().string().find("plot") != std::string::npos);
   check_no_faults(*device);
+}
+
+TEST_CASE("who flies goes on flying when a key is changed, and is told of a flight that is over") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  const auto eye = [&] { return rig.app->camera().camera().eye; };
+  rig.play("key Space\nwait 2\nkey Y\nwait 4\nkey Shift+.\nwait 2\ndrag 640,200 80 0\nwait 40");
+  const Vec3 there = eye();
+  rig.play("key Y\nwait 3\nkey Shift+.\nwait 2\ndrag 640,200 80 0\nwait 40\nkey Y\nwait 3");
+  const Vec3 last = eye();
+  REQUIRE(rig.app->marks().flight.size() == 3);
+  CHECK_FALSE(says(rig, "come to its end"));
+  rig.play("key Shift+Y\nwait 2");
+  CHECK(says(rig, "come to its end"));
+  CHECK(says(rig, fmt::format("keys are at {:.2f} s to {:.2f} s", rig.app->marks().flight[0].time,
+                              rig.app->marks().flight[2].time)));
+  rig.play("click bookmarks.key.0.go\nwait 3");
+  rig.play("click bookmarks.key.0.follow\nwait 3\nclick bookmarks.key.0.box\nwait 3");
+  REQUIRE(rig.app->marks().flight[0].follow == "box");
+  rig.play("key Shift+.\nwait 3");
+  CHECK((eye() - there).norm() < 1e-5);
+  rig.play("click bookmarks.key.1.close\nwait 3\nkey Shift+.\nwait 3");
+  CHECK((eye() - last).norm() < 1e-5);
+  check_no_faults(*device);
+}
+
+TEST_CASE("times of bookmarks and keys stand level with what is beside them") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Space\nwait 2\nkey Y\nwait 2\nkey Ctrl+B\nwait 4");
+  const auto middle = [&](const char* name) {
+    const auto rect = rig.app->ui().find(name);
+    REQUIRE(rect);
+    return rect->y + 0.5f * rect->height;
+  };
+  CHECK(middle("bookmarks.0.go") == middle("bookmarks.0.name"));
+  CHECK(middle("bookmarks.key.0.go") == middle("bookmarks.key.0.follow"));
 }

@@ -73,15 +73,7 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
   text_ = std::move(saved->text);
   preview.left_out = std::move(saved->left_out);
   preview.lines = changed_lines(file_.on_disk, text_);
-  std::error_code none;
-  if (!file_.pack.empty())
-    preview.warning =
-        "It came in a pack: another name that ends in .json writes the scene with its files beside "
-        "it, any other a pack.";
-  else if (!file_.ours && fs::exists(file_.path, none))
-    preview.warning = "A file of this name is there already: writing replaces it.";
-  else if (const auto now = read_file(file_.path); now && file_.ours && *now != file_.on_disk)
-    preview.warning = "The file was changed by somebody else meanwhile: writing replaces that.";
+  preview.warning = warning_of(file_.path);
   tried_ = std::move(preview);
   // What was not changed opened a while ago, from there.
   const fs::path place = place_of(file_.path);
@@ -92,6 +84,28 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
                                  const Stoppable scope(stop);
                                  return check_scene_text(text, place);
                                });
+}
+
+/// What writing to a path does that one might not expect; "": nothing.
+std::string SceneSaver::warning_of(const fs::path& path) const {
+  if (!file_.pack.empty())
+    return "It came in a pack: another name that ends in .json writes the scene with its files "
+           "beside it, any other a pack.";
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) return {};
+  if (!file_.ours || !fs::equivalent(path, file_.path, none))
+    return "A file of this name is there already: writing replaces it.";
+  const auto now = read_file(path);
+  if (now && *now != file_.on_disk)
+    return "The file was changed by somebody else meanwhile: writing replaces that.";
+  return {};
+}
+
+void SceneSaver::name(const std::string& file) {
+  if (!preview_ || file == named_) return;
+  named_ = file;
+  std::error_code none;
+  preview_->warning = file.empty() ? std::string() : warning_of(fs::absolute(file, none));
 }
 
 /// What stands behind a path that is written to: a scene of a pack is where it was unpacked.
@@ -110,6 +124,7 @@ void SceneSaver::look_at_trial() {
     trial_.reset();
   }
   preview_ = std::exchange(tried_, std::nullopt);
+  named_ = preview_->file;
 }
 
 /// The pack itself may have any name, and be written in any way.

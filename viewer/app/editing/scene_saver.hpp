@@ -43,6 +43,8 @@ class SceneSaver {
   void update();
   /// Null until prepare() has an answer.
   const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
+  /// Somebody names another file to be written: the preview warns of what that would do.
+  void name(const std::string& file);
   /// Writes what the preview shows, if it opens as a scene there; from then on that is the scene's
   /// file. A relative path is one of the working folder.
   Status write(const std::filesystem::path& path);
@@ -57,6 +59,7 @@ class SceneSaver {
   };
   void take_edits(std::vector<SceneEdit> edits);
   void look_at_trial();
+  std::string warning_of(const std::filesystem::path& path) const;
   std::filesystem::path place_of(const std::filesystem::path& path) const;
   bool writes_pack(const std::filesystem::path& path) const;
   Status write_packed(const std::filesystem::path& path) const;
@@ -66,6 +69,7 @@ class SceneSaver {
   std::vector<SceneEdit> edits_;   ///< all of them, as the preview has them
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
+  std::string named_;                 ///< the file that the preview warns of
   std::optional<SavePreview> tried_;  ///< what becomes the preview, if the trial goes well
   std::unique_ptr<Trial> trial_;      ///< null: none is under way
   bool beside_ = true;

@@ -257,7 +257,54 @@ std::string quantity_help() {
          "  contact: .touching (0 or 1) .count (of touches) .force .force.x .y .z [N]";
 }
 
+namespace {
+
+/// Adds what is there; a name goes on meaning what it meant as long as that is there.
+template <class Id>
+void learn(std::map<std::string, Id, std::less<>>& names,
+           const std::vector<std::pair<std::string_view, Id>>& there) {
+  for (const auto& [name, id] : there) {
+    if (name.empty()) continue;
+    const auto [known, added] = names.try_emplace(std::string(name), id);
+    const auto is_known = [&](const auto& other) { return other.second == known->second; };
+    if (!added && known->second != id && std::ranges::none_of(there, is_known)) known->second = id;
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const BuiltScene> names_with(const BuiltScene& names, const Frame& frame) {
+  auto out = std::make_shared<BuiltScene>();
+  out->description = names.description;
+  out->bodies = names.bodies;
+  out->joints = names.joints;
+  out->forces = names.forces;
+  out->particles = names.particles;
+  out->sensors = names.sensors;
+  std::vector<std::pair<std::string_view, BodyId>> bodies;
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (const BodyId id = frame.body(slot).id; !id.is_null())
+      bodies.emplace_back(frame.info(slot).name, id);
+  learn(out->bodies, bodies);
+  std::vector<std::pair<std::string_view, JointId>> joints;
+  if (frame.joints)
+    for (const JointFrame& joint : *frame.joints) joints.emplace_back(joint.name, joint.id);
+  learn(out->joints, joints);
+  std::vector<std::pair<std::string_view, ParticleSystemId>> particles;
+  for (const auto& system : frame.particles) particles.emplace_back(system->name, system->id);
+  learn(out->particles, particles);
+  std::vector<std::pair<std::string_view, SensorId>> sensors;
+  if (frame.sensors)
+    for (const SensorFrame& sensor : *frame.sensors) sensors.emplace_back(sensor.name, sensor.id);
+  learn(out->sensors, sensors);
+  return out;
+}
+
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
+  return quantity_names(scene, *scene.world->frame());
+}
+
+std::vector<std::string> quantity_names(const BuiltScene& scene, const Frame& frame) {
   std::vector<std::string> out = {
       "time",          "tick",         "bodies",           "awake",           "particles",
       "islands",       "contacts",     "contact_points",   "max_penetration", "joints",
@@ -287,9 +334,10 @@ std::vector<std::string> quantity_names(const BuiltScene& scene) {
   for (const auto& [name, id] : scene.joints) {
     for (const char* vector : {".reaction", ".reaction_torque"}) axes("joints." + name + vector);
     out.push_back("joints." + name + ".broken");
-    const JointDef* def = scene.world->joint(id);
-    if (!def) continue;
-    for (const JointCoordinate& c : entry_of(def->kind).coordinates)
+    if (!frame.joints) continue;
+    const auto joint = std::ranges::find(*frame.joints, id, &JointFrame::id);
+    if (joint == frame.joints->end()) continue;
+    for (const JointCoordinate& c : entry_of(joint->kind).coordinates)
       for (const char* what : {"", "_rate", "_motor"})
         out.push_back("joints." + name + "." + std::string(c.name) + what);
   }
@@ -298,9 +346,8 @@ std::vector<std::string> quantity_names(const BuiltScene& scene) {
     for (const char* value : {".count", ".speed", ".max_speed", ".temperature", ".pressure"})
       out.push_back("particles." + name + value);
   }
-  const auto frame = scene.world->frame();
-  if (frame->sensors)
-    for (const SensorFrame& sensor : *frame->sensors)
+  if (frame.sensors)
+    for (const SensorFrame& sensor : *frame.sensors)
       for (const SensorValue& v : sensor_values(sensor))
         out.push_back("sensors." + sensor.name + "." + std::string(v.name));
   return out;

@@ -42,6 +42,10 @@ std::string unit_of_quantity(std::string_view name);
 
 /// Every name of this scene, for "did you mean".
 std::vector<std::string> quantity_names(const BuiltScene& scene);
+/// The same of the names in `names` at a moment.
+std::vector<std::string> quantity_names(const BuiltScene& names, const Frame& frame);
+/// The names with those of everything else that is there in a frame: what was built meanwhile.
+std::shared_ptr<const BuiltScene> names_with(const BuiltScene& names, const Frame& frame);
 
 /// The names above, for help and messages.
 std::string quantity_help();

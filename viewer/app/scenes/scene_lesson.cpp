@@ -86,9 +86,10 @@ std::shared_ptr<SceneLesson> SceneLesson::make(const BuiltScene& scene, double a
   std::shared_ptr<SceneLesson> out(new SceneLesson);
   out->names_ = names_of(scene);
   out->view_.about = lesson.about;
-  std::vector<std::string> choose;
+  std::vector<std::string> choose, plot;
   for (const LessonStepDescription& d : lesson.steps) {
     if (!d.choose.empty()) choose = d.choose;
+    if (!d.plot.empty()) plot = d.plot;
     Wants& wants = out->wants_.emplace_back();
     wants.choose = choose;
     wants.restart = d.restart;
@@ -96,7 +97,8 @@ std::shared_ptr<SceneLesson> SceneLesson::make(const BuiltScene& scene, double a
       if (auto view = find_view_point(scene, d.camera, aspect)) wants.view = *std::move(view);
     if (const auto on = parse_overlays(fmt::format("{}", fmt::join(d.overlays, ","))))
       wants.overlays = *on;
-    for (const std::string& curve : d.plot) wants.plot.push_back(curve_of(out->names_, curve));
+    wants.plots = !d.plot.empty();
+    for (const std::string& curve : plot) wants.plot.push_back(curve_of(out->names_, curve));
     out->view_.steps.push_back(view_of(d, d.choose));
     Truth& truth = out->truths_.emplace_back();
     if (!d.question) continue;

@@ -27,7 +27,8 @@ class SceneLesson final : public TickWatcher {
   struct Wants {
     std::optional<ViewPoint> view;
     Overlays overlays;
-    std::vector<Quantity> plot;
+    std::vector<Quantity> plot;       ///< of this page, or of the last before it that plots
+    bool plots = false;               ///< they are of this page
     std::vector<std::string> choose;  ///< of this page, or of the last before it that chooses
     bool restart = false;
   };

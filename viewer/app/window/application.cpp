@@ -282,13 +282,20 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   saver_.update();
   parts_.update(session(), edits_.file_edits());
   look_at_files(dt);
-  if (saver_.preview() && ui_.save_file.empty()) ui_.save_file = saver_.preview()->file;
+  if (saver_.preview()) {
+    if (!std::exchange(save_named_, true)) ui_.save_file = saver_.preview()->file;
+    saver_.name(ui_.save_file);
+  }
   if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
     const Camera& seen = camera_.camera();
     mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
                          options_.own_thread);
     (void)mesh_palette_.ready();
   }
+  // What a search can find is what is there when it begins.
+  const bool searched = !ui_.plot.search.empty(), begun = searched && !searched_;
+  searched_ = searched;
+  if (begun && scene_.quantities) scene_.quantities = scene_.quantities->with(world_.frame());
   std::vector<UiRequest> requests;
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();

@@ -27,6 +27,7 @@ std::string Application::name_of(BodyId id) const {
 /// it is held, or while its text is being typed, is one deed.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
   unsaved_.note();
+  choices_.forget_taken_back();
   leave_loop();
   const bool goes_on = by_gesture && in_gesture();
   if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
@@ -45,7 +46,10 @@ void Application::take_back() {
   unsaved_.note();
   parts_.note();
   auto back = edits_.undo(session(), selection_.all());
-  if (!back) return ui_.toast(ToastKind::info, "There is nothing to take back");
+  if (!back) {
+    if (!go_back_on(choices_.back())) ui_.toast(ToastKind::info, "There is nothing to take back");
+    return;
+  }
   other_course_ = true;
   selected_then_ = std::move(back->selected);
   ui_.toast(ToastKind::info, "Taken back: " + back->what);
@@ -57,7 +61,10 @@ void Application::do_again() {
   unsaved_.note();
   parts_.note();
   auto back = edits_.redo(session(), selection_.all());
-  if (!back) return ui_.toast(ToastKind::info, "There is nothing to do again");
+  if (!back) {
+    if (!go_back_on(choices_.again())) ui_.toast(ToastKind::info, "There is nothing to do again");
+    return;
+  }
   other_course_ = true;
   selected_then_ = std::move(back->selected);
   ui_.toast(ToastKind::info, "Done again: " + back->what);

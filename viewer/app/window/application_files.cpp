@@ -32,6 +32,11 @@ void Application::browse(const std::string& folder) {
 }
 
 void Application::open(SceneWish wish) {
+  open_as(std::move(wish), std::nullopt);
+}
+
+void Application::open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice) {
+  choosing_ = std::move(choice);
   if (options_.own_thread)
     loader_.start(options_.open, std::move(wish));
   else
@@ -39,12 +44,13 @@ void Application::open(SceneWish wish) {
 }
 
 void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
+  auto choice = std::exchange(choosing_, std::nullopt);
   if (opened) {
     ui_.toasts.clear();
     // The same scene with other numbers or another text is looked at from where one stands, and
     // waits if it did.
-    const bool same =
-        asked.scene == scene_.wish.scene && (!asked.overrides.empty() || asked.text || reloading_);
+    const bool same = asked.scene == scene_.wish.scene &&
+                      (choice || !asked.overrides.empty() || asked.text || reloading_);
     const Camera camera = camera_.camera();
     const bool paused = session().paused();
     const bool reloaded = std::exchange(reloading_, false);
@@ -57,6 +63,15 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
                                                         : unsaved_.free_name();
     }
     show(std::move(*opened));
+    if (!choice) {
+      choices_.forget();
+    } else {
+      if (choice->way != ChoiceHistory::Way::anew)
+        ui_.toast(ToastKind::info,
+                  (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
+                      choice->what);
+      choices_.gone(*std::move(choice));
+    }
     if (reloaded)
       ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
                                               "what was changed here"
@@ -172,12 +187,30 @@ void Application::answer(size_t choice) {
 }
 
 void Application::change_parameter(const ChangeParameter& change) {
-  SceneWish wish = scene_.wish;
-  const std::string path = fmt::format("parameters.{}=", change.name);
-  std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
-  wish.overrides.push_back(fmt::format("{}{}", path, change.value));
-  if (unsaved_.any()) wish.text = unsaved_.text();
-  open(std::move(wish));
+  choose({fmt::format("parameters.{}={}", change.name, change.value)}, "Change " + change.name);
+}
+
+/// The scene anew with other numbers, and with what was changed here.
+void Application::choose(const std::vector<std::string>& overrides, std::string what) {
+  // What was done just now counts, too.
+  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  SceneWish before = scene_.wish;
+  if (unsaved_.any()) before.text = unsaved_.text();
+  SceneWish after = before;
+  for (const std::string& one : overrides) {
+    const std::string path = one.substr(0, one.find('=') + 1);
+    std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
+    after.overrides.push_back(one);
+  }
+  open_as(after, ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after});
+}
+
+/// A choice taken back, or made again; false when there is none.
+bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
+  if (!choice) return false;
+  const SceneWish wish = choice->wish();
+  open_as(wish, std::move(choice));
+  return true;
 }
 
 /// Shows what saving would write; asked for once more it writes that.
@@ -186,12 +219,16 @@ void Application::save_scene() {
   ui_.hidden = false;
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
+  save_named_ = false;
   ui_.save_fault.clear();
   saver_.prepare(session(), edits_.file_edits(), chosen_numbers(scene_), options_.own_thread);
 }
 
 void Application::write_scene(const std::string& file) {
-  if (const Status done = saver_.write(file); !done) {
+  const Status done = file.empty()
+                          ? Status(Error{ErrorCode::invalid_argument, "a name is missing", {}, {}})
+                          : saver_.write(file);
+  if (!done) {
     // The panel stays with what was typed: another name may do.
     ui_.shows(PanelId::save) = true;
     ui_.save_file = file;
@@ -201,6 +238,7 @@ void Application::write_scene(const std::string& file) {
   ui_.shows(PanelId::save) = false;
   ui_.save_fault.clear();
   scene_.file = saver_.file();
+  choices_.forget();  // the scene without them is no file any more
   marks_.go_on_as(marked_scene());
   // From now on the scene is that file: opened anew it is what was saved.
   std::error_code none;

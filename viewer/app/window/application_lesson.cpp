@@ -40,7 +40,8 @@ void Application::show_lesson_page(bool turned) {
     own_flight_ = false;
     camera_.look_from(*wants.view, world_.view());
   }
-  if (!wants.plot.empty()) {
+  // Opened anew a page has the curves of the pages before it again; turned to, it leaves what is.
+  if (!wants.plot.empty() && (wants.plots || !turned)) {
     measures_.clear();
     for (const Quantity& q : wants.plot) measures_.add(q, world_.frame());
     ui_.shows(PanelId::measure) = true;
@@ -57,14 +58,7 @@ void Application::answer_lesson(const std::string& said) {
 /// The scene anew with what this page chooses, from where one looks.
 void Application::take_lesson_choice() {
   if (!scene_.lesson) return;
-  SceneWish wish = scene_.wish;
-  for (const std::string& choice : scene_.lesson->wants().choose) {
-    const std::string path = choice.substr(0, choice.find('=') + 1);
-    std::erase_if(wish.overrides, [&](const std::string& o) { return o.starts_with(path); });
-    wish.overrides.push_back(choice);
-  }
-  if (unsaved_.any()) wish.text = unsaved_.text();
-  open(std::move(wish));
+  choose(scene_.lesson->wants().choose, "The lesson's choice");
 }
 
 /// Whether what the page chooses is what the world has.

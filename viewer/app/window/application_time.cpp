@@ -129,10 +129,16 @@ void Application::follow_from_key(const FollowFromKey& wish) {
   if (x && marks_.clock().tick_at(flight[wish.index].time) != world_.frame().tick)
     return ui_.toast(ToastKind::info, "A key follows from its own moment on: go there first",
                      {"Its time in the list is a button that does."});
-  marks_.change([&](SceneMarks& marks) {
-    marks.flight[wish.index].follow = wish.body;
-    marks.flight[wish.index].follow_x = x.value_or(Vec3::Zero());
+  change_flight([&](std::vector<CameraKey>& keys) {
+    keys[wish.index].follow = wish.body;
+    keys[wish.index].follow_x = x.value_or(Vec3::Zero());
   });
+}
+
+/// Who flies goes on along the keys as they are then.
+void Application::change_flight(const std::function<void(std::vector<CameraKey>&)>& change) {
+  marks_.change([&](SceneMarks& marks) { change(marks.flight); });
+  if (own_flight_ && camera_.flying() && !marks_.marks().flight.empty()) return fly();
   camera_.leave_path();
 }
 
@@ -142,10 +148,19 @@ void Application::toggle_flight() {
     return ui_.toast(ToastKind::info, fmt::format("No flight yet: {} makes a key of it",
                                                   shortcut_of(Action::add_camera_key)));
   if (own_flight_ && camera_.flying()) return camera_.leave_path();
+  fly();
+  if (flight.size() > 1 && world_.frame().time >= flight.back().time)
+    ui_.toast(ToastKind::info, "This flight has come to its end",
+              {fmt::format("Its keys are at {:.2f} s to {:.2f} s: go back there, or restart by {}.",
+                           flight.front().time, flight.back().time, shortcut_of(Action::restart))});
+}
+
+/// Along the keys of a person.
+void Application::fly() {
   own_flight_ = true;
   ViewPoint view = scene_.view;
   view.follow = {};
-  view.path = flight;
+  view.path = marks_.marks().flight;
   camera_.look_from(view, world_.view());
 }
 
@@ -238,11 +253,9 @@ bool Application::apply_in_time(const UiRequest& request) {
   } else if (const auto* reading = std::get_if<RemoveReading>(&request)) {
     ruler_.remove(reading->index);
   } else if (const auto* key = std::get_if<RemoveFlightKey>(&request)) {
-    marks_.change([&](SceneMarks& marks) {
-      if (key->index < marks.flight.size())
-        marks.flight.erase(marks.flight.begin() + std::ptrdiff_t(key->index));
+    change_flight([&](std::vector<CameraKey>& keys) {
+      if (key->index < keys.size()) keys.erase(keys.begin() + std::ptrdiff_t(key->index));
     });
-    camera_.leave_path();
   } else if (const auto* followed = std::get_if<FollowFromKey>(&request)) {
     follow_from_key(*followed);
   } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {

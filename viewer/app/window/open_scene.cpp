@@ -54,13 +54,15 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   return file;
 }
 
-std::shared_ptr<const NamedQuantities> named_quantities(const BuiltScene& built) {
+std::shared_ptr<const NamedQuantities> named_quantities(std::shared_ptr<const BuiltScene> names,
+                                                        const Frame& frame) {
   auto out = std::make_shared<NamedQuantities>();
-  out->names = std::make_shared<const std::vector<std::string>>(quantity_names(built));
-  out->find = [scene = names_of(built)](const std::string& name) {
+  out->names = std::make_shared<const std::vector<std::string>>(quantity_names(*names, frame));
+  out->find = [names](const std::string& name) {
     return Quantity{name, unit_of_quantity(name),
-                    [scene, name](const Frame& frame) { return quantity(*scene, frame, name); }};
+                    [names, name](const Frame& now) { return quantity(*names, now, name); }};
   };
+  out->with = [names](const Frame& now) { return named_quantities(names_with(*names, now), now); };
   return out;
 }
 
@@ -101,7 +103,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.look = [description](RenderScene& scene) { apply_look(*description, scene); };
   out.assertions = SceneAssertions::make(loaded->built);
   out.lesson = SceneLesson::make(loaded->built, aspect);
-  out.quantities = named_quantities(loaded->built);
+  out.quantities = named_quantities(names_of(loaded->built), *loaded->built.world->frame());
   out.parts = std::make_shared<const SceneDescription>(parts_of(*description));
   out.live_parts = std::make_shared<LiveParts>(loaded->built);
   out.world = std::move(loaded->built.world);

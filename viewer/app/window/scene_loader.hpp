@@ -32,6 +32,8 @@ struct SceneWish {
 struct NamedQuantities {
   std::shared_ptr<const std::vector<std::string>> names;
   std::function<Quantity(const std::string& name)> find;
+  /// These, and those of what is there in a frame besides.
+  std::function<std::shared_ptr<const NamedQuantities>(const Frame&)> with;
 };
 /// A scene ready to be shown.
 struct OpenedScene {

@@ -15,11 +15,12 @@ SideBySide ViewArea::halves(int from, int to) {
 }
 
 ViewArea ViewArea::beside(int width_px, int height_px, double scale, const UiRect& free) {
-  constexpr float margin = 10;   // between panels, and of them to the edges of the window
-  constexpr double least = 200;  // narrower than that it stands under the panels
+  constexpr float margin = 10, gap = 8;  // of panels to the edges of the window, and to the scene
+  constexpr double least = 200;          // narrower than that it stands under the panels
   ViewArea out(width_px, height_px, scale);
-  double from = std::max(double(free.x - margin), 0.0);
-  double to = std::min(double(free.x + free.width + margin), out.width_);
+  const double right = double(free.x + free.width);
+  double from = free.x > margin ? double(free.x - gap) : 0.0;
+  double to = right < out.width_ - margin ? right + gap : out.width_;
   if (to - from < least) {
     from = 0;
     to = out.width_;

@@ -14,6 +14,8 @@ std::string tick_time(const PanelContext& context, uint64_t tick) {
   return fmt::format("{:.2f} s", context.model.clock->time_of(tick));
 }
 
+constexpr float in_row = 0;  ///< height of a button beside fields and words: theirs
+
 void draw_bookmark(PanelContext& context, const Bookmark& bookmark, size_t index) {
   ImGui::PushID(int(index));
   const float end = ImGui::GetContentRegionMax().x;
@@ -29,7 +31,7 @@ void draw_bookmark(PanelContext& context, const Bookmark& bookmark, size_t index
   context.host.mark(fmt::format("bookmarks.{}.name", index));
   ImGui::SameLine(0, 4);
   if (word_button(context, fmt::format("bookmarks.{}.go", index), time.c_str(),
-                  bookmark.tick == context.model.frame->tick, "go to this moment", {}))
+                  bookmark.tick == context.model.frame->tick, "go to this moment", {}, in_row))
     context.ask(GoToMoment{bookmark.tick});
   ImGui::SameLine(end - 22);
   if (icon_button(context, fmt::format("bookmarks.{}.close", index), Icon::close, "no longer", {},
@@ -113,7 +115,7 @@ void draw_flight(PanelContext& context) {
     const uint64_t tick = m.clock->tick_at(m.flight[i].time);
     const bool here = tick == m.frame->tick;
     if (word_button(context, fmt::format("bookmarks.key.{}.go", i), time.c_str(), here,
-                    "go to this moment", {}))
+                    "go to this moment", {}, in_row))
       context.ask(GoToMoment{tick});
     ImGui::SameLine(0, 8);
     draw_followed(context, m.flight[i], i, here, end - ImGui::GetCursorPosX() - 30);

@@ -29,12 +29,12 @@ std::string_view type_text(const BodyInfo& info) {
 
 void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& info) {
   section(context, "Motion");
-  value_row("position [m]", vector_text(body.pose.x, 3));
+  vector_row("position [m]", body.pose.x, 3);
   const Quat& q = body.pose.q;
   const double angle = 2 * std::acos(std::clamp(std::abs(q.w()), 0.0, 1.0));
   value_row("turned by", fmt::format("{:.1f}°", angle * 180 / std::numbers::pi));
-  value_row("velocity [m/s]", vector_text(body.v, 3));
-  value_row("spin [rad/s]", vector_text(body.omega, 3));
+  vector_row("velocity [m/s]", body.v, 3);
+  vector_row("spin [rad/s]", body.omega, 3);
   if (info.type == BodyType::dynamic) {
     value_row("kinetic energy", quantity_text(kinetic_energy(body, info), "J"));
     const double height_energy = -info.mass * context.model.frame->gravity.dot(body.pose.x);

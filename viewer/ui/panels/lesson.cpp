@@ -11,14 +11,6 @@
 namespace tumble {
 namespace {
 
-void coloured(std::string_view text, uint32_t colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
-
 /// A dot for each page: a click turns to it.
 void draw_progress(PanelContext& context, const LessonView& lesson) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -74,21 +66,21 @@ void draw_verdict(const LessonQuestionView& q) {
     case AnswerVerdict::none:
       return;
     case AnswerVerdict::unclear:
-      return coloured("This is not a number. Type one, such as 0.5 or 1e-3.", palette::yellow);
+      return wrapped("This is not a number. Type one, such as 0.5 or 1e-3.", palette::yellow);
     case AnswerVerdict::waiting:
-      return coloured(q.at ? fmt::format("Noted. Let the world run to {:g} s: it decides.", *q.at)
-                           : "Noted. The world cannot say it at this moment.",
-                      palette::blue);
+      return wrapped(q.at ? fmt::format("Noted. Let the world run to {:g} s: it decides.", *q.at)
+                          : "Noted. The world cannot say it at this moment.",
+                     palette::blue);
     case AnswerVerdict::wrong:
-      return coloured("No. Look again, or take the hint.", palette::red);
+      return wrapped("No. Look again, or take the hint.", palette::red);
     case AnswerVerdict::right:
       break;
   }
   std::string text = fmt::format("Right: {:.4g} {}.", *q.right, q.unit);
   if (q.unit.empty()) text = fmt::format("Right: {:.4g}.", *q.right);
   if (q.measured) text += fmt::format(" The world says {:.6g}.", *q.measured);
-  coloured(text, palette::green);
-  if (!q.why.empty()) coloured(q.why, palette::text);
+  wrapped(text, palette::green);
+  if (!q.why.empty()) wrapped(q.why, palette::text);
 }
 
 void draw_question(PanelContext& context, const LessonStepView& step) {
@@ -97,7 +89,7 @@ void draw_question(PanelContext& context, const LessonStepView& step) {
   UiState& state = context.state;
   ImGui::Separator();
   ImGui::PushFont(context.host.fonts().strong);
-  coloured(q.ask, palette::text);
+  wrapped(q.ask, palette::text);
   ImGui::PopFont();
   const float unit_width = q.unit.empty() ? 0 : ImGui::CalcTextSize(q.unit.c_str()).x + 10;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 74 - unit_width);
@@ -118,7 +110,7 @@ void draw_question(PanelContext& context, const LessonStepView& step) {
   draw_verdict(q);
   if (q.verdict == AnswerVerdict::right || q.hint.empty()) return;
   if (state.lesson_hint) {
-    coloured("Hint: " + q.hint, palette::dim);
+    wrapped("Hint: " + q.hint, palette::dim);
   } else if (ImGui::SmallButton("Hint")) {
     state.lesson_hint = true;
   }
@@ -156,10 +148,10 @@ void draw_lesson_panel(PanelContext& context) {
   draw_progress(context, *lesson);
   const LessonStepView& step = lesson->steps[lesson->step];
   ImGui::PushFont(context.host.fonts().strong);
-  coloured(step.title, palette::accent);
+  wrapped(step.title, palette::accent);
   ImGui::PopFont();
   for (const std::string& paragraph : step.text) {
-    coloured(paragraph, palette::text);
+    wrapped(paragraph, palette::text);
     ImGui::Dummy(ImVec2(0, 1));
   }
   draw_choices(context, step);

@@ -102,9 +102,7 @@ void draw_microscope_panel(PanelContext& context) {
   const MicroscopeStep& step = steps[index];
   draw_steps(context, int(steps.size()));
   section(context, step.title.c_str());
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(step.caption.c_str());
-  ImGui::PopTextWrapPos();
+  wrapped(step.caption, palette::text);
   ImGui::Dummy(ImVec2(0, 3));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
   for (const MicroscopeStep::Number& n : step.numbers) value_row(n.label, n.value);

@@ -41,18 +41,17 @@ void draw_save_panel(PanelContext& context) {
   ImGui::InputText("##file", &file);
   context.host.mark("save.file");
   if (!context.state.save_fault.empty()) {
-    ImGui::PushTextWrapPos(0);
-    ImGui::PushStyleColor(ImGuiCol_Text, palette::red);
-    ImGui::TextUnformatted(("It was not saved: " + context.state.save_fault).c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
+    wrapped("It was not saved: " + context.state.save_fault, palette::red);
     context.host.mark("save.fault");
   }
-  if (!preview->warning.empty()) small_text(context, preview->warning, palette::yellow);
+  if (!preview->warning.empty()) {
+    small_text(context, preview->warning, palette::yellow);
+    context.host.mark("save.warning");
+  }
   if (preview->lines.empty()) note("Nothing differs from the file as it was opened.");
   draw_lines(*preview);
   for (const std::string& line : preview->left_out) small_text(context, line, palette::yellow);
-  if (ImGui::Button("Write") && !file.empty()) context.ask(WriteScene{file});
+  if (ImGui::Button("Write")) context.ask(WriteScene{file});
   context.host.mark("save.write");
   tooltip_with_key(context, "write the file", shortcut_of(Action::save_scene));
   ImGui::SameLine();

@@ -196,6 +196,9 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10, 8));
+  // Over two pictures it would show where each of them ends.
+  const bool beside = context.model.comparison && context.state.compared_as == ComparedAs::beside;
+  ImGui::SetNextWindowBgAlpha(beside ? 1.0f : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg).w);
   ImGui::Begin("##bar", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |

@@ -1,0 +1,37 @@
+#pragma once
+#include "viewer/app/window/scene_loader.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Numbers of a scene that a person chose anew. Each choice opens the scene once more, and so does
+/// taking it back: a wish is remembered where deeds remember a moment of the world (EditHistory).
+class ChoiceHistory {
+ public:
+  enum class Way : uint8_t { anew, back, again };
+  /// A choice, and which way it is gone.
+  struct Step {
+    Way way = Way::anew;
+    std::string what;  ///< "Change balls"
+    SceneWish before{}, after{};
+    const SceneWish& wish() const { return way == Way::back ? before : after; }
+  };
+  /// What takes the newest choice back; nothing when there is none.
+  std::optional<Step> back() const;
+  /// What chooses again what was taken back last.
+  std::optional<Step> again() const;
+  /// The scene was opened as the step wishes it.
+  void gone(Step step);
+  /// Somebody did something else: what was taken back is not to be done again.
+  void forget_taken_back() { undone_.clear(); }
+  /// Another scene is shown, or this one has another text.
+  void forget() { *this = ChoiceHistory{}; }
+
+ private:
+  std::vector<Step> done_, undone_;
+};
+
+}  // namespace tumble
