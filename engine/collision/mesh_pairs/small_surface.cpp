@@ -1,6 +1,7 @@
 #include "engine/collision/mesh_pairs/small_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include <emmintrin.h>
@@ -112,9 +113,13 @@ void SmallSurface::meet_facets(const Met& triangle, const Beyond& beyond) {
     for (const Triangle& f : small_.s.mesh->triangles)
       masks_.push_back(bit(f[0]) | bit(f[1]) | bit(f[2]));
   }
-  for (uint32_t i = 0; i < masks_.size(); ++i) {
+  uint64_t near = 0;
+  for (size_t i = 0; i < masks_.size(); ++i) {
     const uint64_t mask = masks_[i];
-    if ((mask & beyond.above) == mask || (mask & beyond.below) == mask) continue;
+    near |= uint64_t{(mask & ~beyond.above) != 0 && (mask & ~beyond.below) != 0} << i;
+  }
+  for (; near != 0; near &= near - 1) {
+    const auto i = uint32_t(std::countr_zero(near));
     const double away = std::max(over_plane(i), distance(i, triangle));
     if (pairs_.apart(away)) continue;
     pairs_.add(is_a_ ? TriangleIds{i, triangle.id} : TriangleIds{triangle.id, i}, away);
