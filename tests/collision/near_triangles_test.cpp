@@ -31,16 +31,30 @@ MeshSurface surface(TriangleMesh m) {
   return build_mesh_surface(std::make_shared<const TriangleMesh>(std::move(m)));
 }
 
+/// A pyramid on a square: five vertices.
+TriangleMesh odd_hull() {
+  TriangleMesh m;
+  m.vertices = {{0.3, 0, 0.3}, {0.3, 0, -0.3}, {-0.3, 0, -0.3}, {-0.3, 0, 0.3}, {0, 0.4, 0}};
+  m.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 3, 2}, {0, 2, 1}};
+  return m;
+}
+
 /// Checks one query against all pairs; the number of pairs within reach.
 size_t check(const PlacedSurface& A, const PlacedSurface& B, double reach) {
-  std::vector<TriangleIds> found, crossing;
+  std::vector<TriangleIds> found, crossing, by_b, swapped;
   double apart = 0;
   REQUIRE(near_triangles(A, B, reach, std::numeric_limits<size_t>::max(), nullptr, found, &apart,
-                         &crossing));
+                         &crossing, &by_b));
   const auto before = [](const TriangleIds& x, const TriangleIds& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   };
   CHECK(std::ranges::is_sorted(found, before));
+  CHECK(std::ranges::is_sorted(crossing, before));
+  for (const TriangleIds& x : found) swapped.push_back({x.b, x.a});
+  std::ranges::sort(swapped, before);
+  CHECK(std::ranges::equal(by_b, swapped, [](const TriangleIds& x, const TriangleIds& y) {
+    return x.a == y.a && x.b == y.b;
+  }));
   CHECK(std::ranges::includes(found, crossing, before));
   const double hair = 9e-7 * (A.s.size + B.s.size);  // whoever asks may move B by as much
   CHECK(apart >= reach);
@@ -54,7 +68,7 @@ size_t check(const PlacedSurface& A, const PlacedSurface& B, double reach) {
         ++within;
         CHECK(listed);
       }
-      if (!listed) CHECK(distance > apart - 1e-9);
+      if (!listed) CHECK(distance > (found.empty() ? apart : reach) - 1e-9);
       if (distance <= std::min(hair, reach - 1e-9))
         CHECK(std::ranges::binary_search(crossing, TriangleIds{a, b}, before));
     }
@@ -74,20 +88,28 @@ TEST_CASE("near triangles are those of brute force, of small surfaces and large 
   TriangleMesh part = make_mesh::box({0.3, 0.2, 0.1});  // with vertices of something else
   part.vertices.resize(500, Vec3(0, 3, 0));
   surfaces.push_back(surface(part));
+  surfaces.push_back(surface(make_mesh::torus(0.4, 0.15, 8, 4)));  // 64 triangles
+  surfaces.push_back(surface(odd_hull()));
+  REQUIRE((is_small(surfaces[5]) && is_small(surfaces[6])));
+  REQUIRE(surfaces[6].mesh->vertices.size() % 2 == 1);
   REQUIRE((is_small(surfaces[1]) && !is_small(surfaces[2]) && !is_small(surfaces[4])));
   Random r(4);
-  size_t within = 0, queries = 0;
+  size_t within = 0, queries = 0, without = 0;
   for (int i = 0; i < cases(12); ++i) {
     for (const MeshSurface& a : surfaces) {
       for (const MeshSurface& b : surfaces) {
         const Pose pa{random_vec(r, -5, 5), random_rotation(r)};
         const Pose pb{pa.x + r.uniform(0.1, 1.2) * random_direction(r), random_rotation(r)};
-        within += check(placed(a, pa), placed(b, pb), r.uniform() < 0.3 ? 0 : r.uniform(0, 0.1));
+        const size_t here =
+            check(placed(a, pa), placed(b, pb), r.uniform() < 0.3 ? 0 : r.uniform(0, 0.1));
+        within += here;
+        without += here == 0;
         ++queries;
       }
     }
   }
   CHECK(within > queries);
+  CHECK(4 * without > queries);
 }
 
 TEST_CASE("the search for near triangles stops when there are too many") {

@@ -31,32 +31,32 @@ bool in_wedge(const MeshSurface& s, const MeshEdge& edge, const Vec3& n) {
 
 }  // namespace
 
-std::optional<EdgeContact> edge_contact(const PlacedSurface& A, uint32_t edge_a,
-                                        const PlacedSurface& B, uint32_t edge_b,
+std::optional<EdgeContact> edge_contact(const PlacedSurface& A, const PlacedEdge& a,
+                                        const PlacedSurface& B, const PlacedEdge& b,
                                         const ContactRange& range) {
-  const MeshEdge &ea = A.s.topology.edges[edge_a], &eb = B.s.topology.edges[edge_b];
-  const Vec3 p0 = A.vertex(ea.vertices[0]), q0 = B.vertex(eb.vertices[0]);
-  const Vec3 u = A.vertex(ea.vertices[1]) - p0, w = B.vertex(eb.vertices[1]) - q0;
+  const Vec3 &u = a.along, &w = b.along;
   const Vec3 c = u.cross(w);
   const double c2 = c.squaredNorm();
   if (!(c2 > parallel * parallel * u.squaredNorm() * w.squaredNorm())) return std::nullopt;
-  const Vec3 r = q0 - p0;
-  const double s = r.cross(w).dot(c) / c2, t = r.cross(u).dot(c) / c2;
+  const Vec3 r = b.start - a.start;
   constexpr double slack = 1e-9;
-  if (s < -slack || s > 1 + slack || t < -slack || t > 1 + slack) return std::nullopt;
-  const Vec3 normal_a = A.direction(ea.normal), normal_b = B.direction(eb.normal);
+  const double s = r.cross(w).dot(c) / c2;
+  if (s < -slack || s > 1 + slack) return std::nullopt;
+  const double t = r.cross(u).dot(c) / c2;
+  if (t < -slack || t > 1 + slack) return std::nullopt;
   Vec3 n = c / std::sqrt(c2);
-  if (n.dot(normal_a) - n.dot(normal_b) < 0) n = -n;
-  if (n.dot(normal_a) <= 0 || n.dot(normal_b) >= 0) return std::nullopt;
+  if (n.dot(a.normal) - n.dot(b.normal) < 0) n = -n;
+  if (n.dot(a.normal) <= 0 || n.dot(b.normal) >= 0) return std::nullopt;
   const double gap = n.dot(r);
   if (gap > range.margin || gap < -range.reach) return std::nullopt;
+  const MeshEdge &ea = A.s.topology.edges[a.id], &eb = B.s.topology.edges[b.id];
   const Vec3 na = A.local_direction(n), nb = B.local_direction(-n);
   if (!in_wedge(A.s, ea, na) || !in_wedge(B.s, eb, nb)) return std::nullopt;
   if (gap < 0) {
     const double thick = A.s.thickness_along(ea.faces, na) + B.s.thickness_along(eb.faces, nb);
     if (-gap > 0.5 * thick) return std::nullopt;
   }
-  return EdgeContact{p0 + s * u, q0 + t * w, n, gap};
+  return EdgeContact{a.start + s * u, b.start + t * w, n, gap};
 }
 
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {

@@ -59,6 +59,20 @@ void vertex_contacts(const PlacedSurface& V, uint32_t vertex, const PlacedSurfac
                      std::span<const uint32_t> triangles, const ContactRange& range,
                      std::vector<FeatureContact>& contacts, std::vector<SunkVertex>& sunk);
 
+/// An edge in the frame of a query.
+struct PlacedEdge {
+  uint32_t id;
+  Vec3 start, along;  ///< from its first vertex to its second [m]
+  Vec3 normal;        ///< MeshEdge::normal
+
+  PlacedEdge(const PlacedSurface& S, uint32_t edge) : id(edge) {
+    const MeshEdge& e = S.s.topology.edges[edge];
+    start = S.vertex(e.vertices[0]);
+    along = S.vertex(e.vertices[1]) - start;
+    normal = S.direction(e.normal);
+  }
+};
+
 /// Two edges that are nearest to each other inside both.
 struct EdgeContact {
   Vec3 on_a, on_b;  ///< query frame
@@ -66,8 +80,8 @@ struct EdgeContact {
   double gap;       ///< [m]
 };
 /// Two active edges, if their common normal lies in the wedges of both.
-std::optional<EdgeContact> edge_contact(const PlacedSurface& A, uint32_t edge_a,
-                                        const PlacedSurface& B, uint32_t edge_b,
+std::optional<EdgeContact> edge_contact(const PlacedSurface& A, const PlacedEdge& a,
+                                        const PlacedSurface& B, const PlacedEdge& b,
                                         const ContactRange& range);
 
 /// Whether an edge of one triangle passes through the inside of the other.

@@ -4,6 +4,7 @@
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
 #include "engine/collision/mesh_pairs/overlap_regions.hpp"
+#include "engine/collision/mesh_pairs/owned_edges.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
@@ -27,6 +28,8 @@ struct Scratch {
   std::vector<uint32_t> near_a, near_b;
   std::vector<FeatureContact> contacts;
   std::vector<SunkVertex> sunk_a, sunk_b;
+  std::vector<PlacedEdge> edges_a;  ///< of the triangle at hand
+  OwnedEdges edges_b;
   double apart = 0;  ///< bound on the distance of surfaces without near pairs [m]
 };
 
@@ -37,12 +40,24 @@ struct MeshQuery {
   const HierarchyKind* hierarchy;
 };
 
-/// The second ids of the run of pairs that starts at `first`; returns its end.
-size_t read_run(const std::vector<TriangleIds>& pairs, size_t first, std::vector<uint32_t>& ids) {
-  size_t last = first;
-  ids.clear();
-  while (last < pairs.size() && pairs[last].a == pairs[first].a) ids.push_back(pairs[last++].b);
+/// Where the run of pairs with the same first id ends that starts at `first`.
+size_t end_of_run(const std::vector<TriangleIds>& pairs, size_t first) {
+  size_t last = first + 1;
+  while (last < pairs.size() && pairs[last].a == pairs[first].a) ++last;
   return last;
+}
+
+/// The second ids of the pairs from `first` to before `last`.
+void read_run(const std::vector<TriangleIds>& pairs, size_t first, size_t last,
+              std::vector<uint32_t>& ids) {
+  ids.clear();
+  for (size_t i = first; i < last; ++i) ids.push_back(pairs[i].b);
+}
+
+/// The second ids of all pairs with this first id.
+void read_run_of(const std::vector<TriangleIds>& pairs, uint32_t id, std::vector<uint32_t>& ids) {
+  const auto first = size_t(std::ranges::lower_bound(pairs, TriangleIds{id, 0}) - pairs.begin());
+  read_run(pairs, first, end_of_run(pairs, first), ids);
 }
 
 /// Vertices of one surface against the triangles of the other; `pairs` is sorted by the first id,
@@ -54,8 +69,11 @@ void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>&
   const size_t first_contact = contacts.size();
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t t = pairs[first].a;
-    first = read_run(pairs, first, q.scratch.near_b);
-    charge_work(q.scratch.near_b.size(), 500);
+    const size_t begin = first;
+    first = end_of_run(pairs, begin);
+    charge_work(first - begin, 500);
+    if ((V.s.owned[t] & 7u) == 0) continue;
+    read_run(pairs, begin, first, q.scratch.near_b);
     for (unsigned k = 0; k < 3; ++k)
       if (V.s.owned[t] & (1u << k))
         vertex_contacts(V, V.s.mesh->triangles[t][k], F, q.scratch.near_b, q.range, contacts, sunk);
@@ -91,36 +109,39 @@ bool end_leaves_otherwise(const MeshEdge& edge, const std::vector<SunkVertex>& s
   return false;
 }
 
-void edge_pair(const MeshQuery& q, const TriangleIds& ids, unsigned i, unsigned j) {
-  const uint32_t ea = q.A.s.topology.face_edges[ids.a][i], eb = q.B.s.topology.face_edges[ids.b][j];
-  const auto c = edge_contact(q.A, ea, q.B, eb, q.range);
+void edge_pair(const MeshQuery& q, const TriangleIds& ids, const PlacedEdge& a,
+               const PlacedEdge& b) {
+  const auto c = edge_contact(q.A, a, q.B, b, q.range);
   if (!c) return;
   Scratch& s = q.scratch;
   if (c->gap < 0) {
     const double depth = -c->gap;
-    if (end_leaves_otherwise(q.A.s.topology.edges[ea], s.sunk_a, depth, -c->normal)) return;
-    if (end_leaves_otherwise(q.B.s.topology.edges[eb], s.sunk_b, depth, c->normal)) return;
+    if (end_leaves_otherwise(q.A.s.topology.edges[a.id], s.sunk_a, depth, -c->normal)) return;
+    if (end_leaves_otherwise(q.B.s.topology.edges[b.id], s.sunk_b, depth, c->normal)) return;
+    read_run_of(s.pairs, ids.a, s.near_b);
     if (!inside(q.B, c->on_a, s.near_b, depth)) return;
-    const auto run = std::lower_bound(s.by_b.begin(), s.by_b.end(), TriangleIds{ids.b, 0});
-    read_run(s.by_b, size_t(run - s.by_b.begin()), s.near_a);
+    read_run_of(s.by_b, ids.b, s.near_a);
     if (!inside(q.A, c->on_b, s.near_a, depth)) return;
   }
-  s.contacts.push_back(
-      {0.5 * (c->on_a + c->on_b), c->normal, c->gap, feature_key(FeaturePair::edge_edge, ea, eb)});
+  s.contacts.push_back({0.5 * (c->on_a + c->on_b), c->normal, c->gap,
+                        feature_key(FeaturePair::edge_edge, a.id, b.id)});
 }
 
 void edge_stage(const MeshQuery& q) {
-  const auto& pairs = q.scratch.pairs;
+  Scratch& s = q.scratch;
+  const auto& pairs = s.pairs;
+  charge_work(pairs.size(), 1000);
+  s.edges_b.place(q.B, s.by_b);
+  if (s.edges_b.empty()) return;
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
-    const size_t last = read_run(pairs, first, q.scratch.near_b);
-    charge_work(last - first, 1000);
-    const unsigned owned_a = q.A.s.owned[pairs[first].a] >> 3;
+    const size_t last = end_of_run(pairs, first);
+    s.edges_a.clear();
+    const bool any = owns_edges(q.A.s, pairs[first].a);
     for (; first < last; ++first) {
-      const unsigned owned_b = q.B.s.owned[pairs[first].b] >> 3;
-      if (!owned_a || !owned_b) continue;
-      for (unsigned i = 0; i < 3; ++i)
-        for (unsigned j = 0; j < 3; ++j)
-          if ((owned_a & (1u << i)) && (owned_b & (1u << j))) edge_pair(q, pairs[first], i, j);
+      if (!any || !owns_edges(q.B.s, pairs[first].b)) continue;
+      if (s.edges_a.empty()) place_edges(q.A, pairs[first].a, s.edges_a);
+      for (const PlacedEdge& a : s.edges_a)
+        for (const PlacedEdge& b : s.edges_b.of(pairs[first].b)) edge_pair(q, pairs[first], a, b);
     }
   }
 }
@@ -128,16 +149,14 @@ void edge_stage(const MeshQuery& q) {
 /// Collects the pairs of triangles within the range; false when there are too many.
 bool gather(const MeshQuery& q) {
   return near_triangles(q.A, q.B, std::max(q.range.margin, q.range.reach), max_pairs, q.hierarchy,
-                        q.scratch.pairs, &q.scratch.apart, &q.scratch.crossing);
+                        q.scratch.pairs, &q.scratch.apart, &q.scratch.crossing, &q.scratch.by_b);
 }
 
 /// All contacts within the range; returns the least gap found.
 double find_contacts(const MeshQuery& q) {
   Scratch& s = q.scratch;
-  s.by_b.clear(), s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
+  s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
   double least = infinity;
-  for (const TriangleIds& ids : s.pairs) s.by_b.push_back({ids.b, ids.a});
-  sort_pairs(s.by_b);
   vertex_stage(q, true, s.pairs, s.sunk_a);
   vertex_stage(q, false, s.by_b, s.sunk_b);
   edge_stage(q);

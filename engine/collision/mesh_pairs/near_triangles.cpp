@@ -3,6 +3,7 @@
 #include "engine/collision/mesh_pairs/small_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -125,16 +126,54 @@ class Walk {
   NearPairs& pairs_;
 };
 
-}  // namespace
-
+/// Ascending by a, then b.
 void sort_pairs(std::vector<TriangleIds>& pairs) {
   // As one number: which of two ids decides cannot be foreseen.
   std::ranges::sort(pairs, {}, [](const TriangleIds& x) { return uint64_t{x.a} << 32 | x.b; });
 }
 
+/// The same for pairs of a small surface that ascend by b: each goes to the next place of its a.
+void sort_by_facet(std::vector<TriangleIds>& pairs) {
+  if (pairs.empty()) return;
+  static thread_local std::vector<TriangleIds> sorted;
+  std::array<uint32_t, most_of_small + 1> next{};
+  for (const TriangleIds& x : pairs) ++next[x.a + 1];
+  for (size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  sorted.resize(pairs.size());
+  for (const TriangleIds& x : pairs) sorted[next[x.a]++] = x;
+  pairs.swap(sorted);
+}
+
+void swap_sides(const std::vector<TriangleIds>& pairs, std::vector<TriangleIds>& swapped) {
+  swapped.clear();
+  for (const TriangleIds& x : pairs) swapped.push_back({x.b, x.a});
+}
+
+/// A small surface finds pairs in the order of the other's triangles, and of each of them in that
+/// of its own.
+void order_small(bool is_a, NearPairs& found, std::vector<TriangleIds>* by_b) {
+  if (by_b) swap_sides(found.within, *by_b);
+  if (is_a) {
+    sort_by_facet(found.within);
+    if (found.crossing) sort_by_facet(*found.crossing);
+  } else if (by_b) {
+    sort_by_facet(*by_b);
+  }
+}
+
+void order_any(NearPairs& found, std::vector<TriangleIds>* by_b) {
+  sort_pairs(found.within);
+  if (found.crossing) sort_pairs(*found.crossing);
+  if (!by_b) return;
+  swap_sides(found.within, *by_b);
+  sort_pairs(*by_b);
+}
+
+}  // namespace
+
 bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach, size_t most,
                     const HierarchyKind* kind, std::vector<TriangleIds>& pairs, double* apart,
-                    std::vector<TriangleIds>* crossing) {
+                    std::vector<TriangleIds>* crossing, std::vector<TriangleIds>* by_b) {
   pairs.clear();
   if (crossing) crossing->clear();
   if (apart) *apart = reach;
@@ -142,19 +181,23 @@ bool near_triangles(const PlacedSurface& A, const PlacedSurface& B, double reach
     const Pose b_in_a{A.R.transpose() * (B.x - A.x), Quat(Mat3(A.R.transpose() * B.R))};
     A.s.hierarchies->get(*kind).pairs(B.s.hierarchies->get(*kind), b_in_a, reach, pairs);
     if (crossing) *crossing = pairs;
+    if (by_b) swap_sides(pairs, *by_b), sort_pairs(*by_b);
     return pairs.size() <= most;
   }
   NearPairs found{reach, 1e-6 * (A.s.size + B.s.size), pairs, crossing};
   const bool fewer_of_a = A.s.mesh->triangles.size() <= B.s.mesh->triangles.size();
-  if (is_small(A.s) && (fewer_of_a || !is_small(B.s)))
+  const bool small_a = is_small(A.s) && (fewer_of_a || !is_small(B.s));
+  if (small_a)
     SmallSurface(A, B, true, found).run(most);
   else if (is_small(B.s))
     SmallSurface(B, A, false, found).run(most);
   else
     Walk(A, B, found).run(most);
   if (apart) *apart = found.nearest_left_out;
-  sort_pairs(pairs);
-  if (crossing) sort_pairs(*crossing);
+  if (small_a || is_small(B.s))
+    order_small(small_a, found, by_b);
+  else
+    order_any(found, by_b);
   return pairs.size() <= most;
 }
 

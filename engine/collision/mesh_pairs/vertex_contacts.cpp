@@ -62,6 +62,13 @@ void decide_side(NearestFeature& nearest, TriangleFeature feature, const MeshSur
   }
 }
 
+/// How far a point is from the box of a triangle along one of the axes; negative in it.
+double beyond_box(const MeshSurface& s, uint32_t t, const Vec3& p) {
+  const Vec3 &a = s.mesh->corner(t, 0), &b = s.mesh->corner(t, 1), &c = s.mesh->corner(t, 2);
+  return std::max((a.cwiseMin(b).cwiseMin(c) - p).maxCoeff(),
+                  (p - a.cwiseMax(b).cwiseMax(c)).maxCoeff());
+}
+
 TrianglePoint closest(const MeshSurface& s, uint32_t t, const Vec3& p) {
   return closest_on_triangle(p, s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2));
 }
@@ -115,7 +122,7 @@ void vertex_contacts(const PlacedSurface& V, uint32_t vertex, const PlacedSurfac
   for (uint32_t t : triangles) {
     const Vec3& n = F.s.topology.face_normals[t];
     const double height = n.dot(p - F.s.mesh->corner(t, 0)), h2 = height * height;
-    if (std::abs(height) > look || n.isZero()) continue;
+    if (std::abs(height) > look || n.isZero() || beyond_box(F.s, t, p) > look) continue;
     const TrianglePoint c = closest(F.s, t, p);
     consider(around.nearest, feature, t, c);
     const bool over = c.squared_distance <= h2 * (1 + 1e-9) + 1e-24 * F.s.size * F.s.size;
