@@ -1,38 +1,4 @@
 #pragma once
-<<<<<<< HEAD:viewer/app/window/application.hpp
-#include "viewer/app/editing/arranger.hpp"
-#include "viewer/app/editing/builder.hpp"
-#include "viewer/app/editing/clipboard.hpp"
-#include "viewer/app/editing/duplicator.hpp"
-#include "viewer/app/editing/edit_history.hpp"
-#include "viewer/app/editing/mesh_modes.hpp"
-#include "viewer/app/editing/mesh_palette.hpp"
-#include "viewer/app/editing/parts_desk.hpp"
-#include "viewer/app/editing/removal.hpp"
-#include "viewer/app/editing/unsaved_work.hpp"
-#include "viewer/app/session/contact_probe.hpp"
-#include "viewer/app/session/event_watch.hpp"
-#include "viewer/app/session/microscope_probe.hpp"
-#include "viewer/app/session/refusal.hpp"
-#include "viewer/app/session/replay_saver.hpp"
-#include "viewer/app/session/selected_def.hpp"
-#include "viewer/app/session/shown_settings.hpp"
-#include "viewer/app/session/shown_world.hpp"
-#include "viewer/app/window/canvas.hpp"
-#include "viewer/app/window/comparison_desk.hpp"
-#include "viewer/app/window/file_watch.hpp"
-#include "viewer/app/window/hand.hpp"
-#include "viewer/app/window/marks_desk.hpp"
-#include "viewer/app/window/microscope_desk.hpp"
-#include "viewer/app/window/pointer.hpp"
-#include "viewer/app/window/preferences.hpp"
-#include "viewer/app/window/ruler.hpp"
-#include "viewer/app/window/scene_camera.hpp"
-#include "viewer/app/window/scene_loader.hpp"
-#include "viewer/app/window/screenshots.hpp"
-#include "viewer/app/window/thumbnails.hpp"
-#include "viewer/app/window/view_area.hpp"
-    =======
 #include "viewer/app/editing/arranger.hpp"
 #include "viewer/app/editing/builder.hpp"
 #include "viewer/app/editing/clipboard.hpp"
@@ -66,7 +32,6 @@
 #include "viewer/app/window/screenshots.hpp"
 #include "viewer/app/window/thumbnails.hpp"
 #include "viewer/app/window/view_area.hpp"
-    >>>>>>> h/time:viewer/app/window/application.hpp
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
@@ -78,291 +43,291 @@
 #include <string>
 #include <vector>
 
-    namespace tumble {
+namespace tumble {
 
-  struct ApplicationOptions {
-    SceneOpener open;
-    std::vector<SceneItem> scenes;            ///< what the list offers
-    std::filesystem::path shaders;            ///< resource_path("shaders")
-    std::filesystem::path capture_folder;     ///< screenshots and sequences go there
-    std::filesystem::path thumbnail_folder;   ///< pictures of scenes; empty: none
-    std::filesystem::path thumbnail_program;  ///< tumble itself, which makes them; empty: nobody
-    std::filesystem::path unsaved_folder;     ///< for work that was not saved; empty: none is kept
-    int threads = 0;                          ///< of the simulation; 0: one per core
-    std::string version;                      ///< of the program, for frames.json
-    /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
-    bool own_thread = true;
-    bool hints = true;                       ///< greet with a line of help
-    Preferences preferences;                 ///< as the user's files have them
-    std::filesystem::path preferences_file;  ///< for changes of them; empty: not kept
-    std::vector<std::string> faults;         ///< of these files, to be said once
+struct ApplicationOptions {
+  SceneOpener open;
+  std::vector<SceneItem> scenes;            ///< what the list offers
+  std::filesystem::path shaders;            ///< resource_path("shaders")
+  std::filesystem::path capture_folder;     ///< screenshots and sequences go there
+  std::filesystem::path thumbnail_folder;   ///< pictures of scenes; empty: none
+  std::filesystem::path thumbnail_program;  ///< tumble itself, which makes them; empty: nobody
+  std::filesystem::path unsaved_folder;     ///< for work that was not saved; empty: none is kept
+  int threads = 0;                          ///< of the simulation; 0: one per core
+  std::string version;                      ///< of the program, for frames.json
+  /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
+  bool own_thread = true;
+  bool hints = true;                       ///< greet with a line of help
+  Preferences preferences;                 ///< as the user's files have them
+  std::filesystem::path preferences_file;  ///< for changes of them; empty: not kept
+  std::vector<std::string> faults;         ///< of these files, to be said once
+};
+
+/// The program behind the window, without the window: passes input to its parts, actions and
+/// requests to the world, and draws. Drives a real window, and tests on EGL, OSMesa and the null
+/// device in the same way. Everything a person does to the world goes through World commands on
+/// the session.
+class Application {
+ public:
+  struct Picture {
+    int width = 1280, height = 800;  ///< [px]
+    double scale = 1;                ///< pixels per UI unit
+    double display_period = 0;       ///< of what it is shown on; 0: not known [s]
   };
 
-  /// The program behind the window, without the window: passes input to its parts, actions and
-  /// requests to the world, and draws. Drives a real window, and tests on EGL, OSMesa and the null
-  /// device in the same way. Everything a person does to the world goes through World commands on
-  /// the session.
-  class Application {
-   public:
-    struct Picture {
-      int width = 1280, height = 800;  ///< [px]
-      double scale = 1;                ///< pixels per UI unit
-      double display_period = 0;       ///< of what it is shown on; 0: not known [s]
-    };
+  /// The device outlives the application. Fails when the renderer cannot be made.
+  static Result<std::unique_ptr<Application>> create(Device& device, ApplicationOptions options,
+                                                     OpenedScene scene);
+  ~Application();
 
-    /// The device outlives the application. Fails when the renderer cannot be made.
-    static Result<std::unique_ptr<Application>> create(Device& device, ApplicationOptions options,
-                                                       OpenedScene scene);
-    ~Application();
+  /// One picture: `events` (positions in UI units), `dt` seconds after the last.
+  Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
+  /// The last picture onto the device's window.
+  void present() { canvas_.renderer().present(); }
+  /// What the graphics card holds may be lost.
+  void draw_anew() { canvas_.renderer().draw_anew(); }
+  Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
-    /// One picture: `events` (positions in UI units), `dt` seconds after the last.
-    Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
-    /// The last picture onto the device's window.
-    void present() { canvas_.renderer().present(); }
-    /// What the graphics card holds may be lost.
-    void draw_anew() { canvas_.renderer().draw_anew(); }
-    Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
+  bool quit_requested() const { return quit_; }
+  /// Somebody wants to leave: asks about unsaved work first, once.
+  void ask_to_quit();
+  /// Brings what is under way to an end that leaves whole files: a recording gets its list.
+  void finish();
+  /// A scene is being opened beside; destruction waits for it.
+  bool opening() const { return loader_.busy(); }
+  bool full_screen() const { return full_screen_; }
+  PointerLook pointer_look() const { return pointer_.look(); }
+  /// What a person makes of the monitor's scale.
+  double zoom() const { return ui_.zoom; }
+  const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
-    bool quit_requested() const { return quit_; }
-    /// Somebody wants to leave: asks about unsaved work first, once.
-    void ask_to_quit();
-    /// Brings what is under way to an end that leaves whole files: a recording gets its list.
-    void finish();
-    /// A scene is being opened beside; destruction waits for it.
-    bool opening() const { return loader_.busy(); }
-    bool full_screen() const { return full_screen_; }
-    PointerLook pointer_look() const { return pointer_.look(); }
-    /// What a person makes of the monitor's scale.
-    double zoom() const { return ui_.zoom; }
-    const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
+  /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the
+  /// new one is ready, and stays with a list of the faults when it cannot be opened.
+  void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
+  void open(SceneWish wish);
+  void perform(Action action);
 
-    /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the
-    /// new one is ready, and stays with a list of the faults when it cannot be opened.
-    void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
-    void open(SceneWish wish);
-    void perform(Action action);
+  // -- for scripts, tests and the status file
+  // -----------------------------------------------------
+  std::optional<ScriptedInput::Point> locate(std::string_view place) const;
+  Session& session() { return world_.session(); }
+  UiHost& ui() { return host_; }
+  UiState& ui_state() { return ui_; }
+  CameraController& camera() { return camera_.controller(); }
+  const SessionView& view() const { return world_.view(); }
+  const RenderScene& picture() const { return canvas_.picture(); }
+  const FrameReport& report() const { return canvas_.report(); }
+  const ViewArea& area() const { return area_; }
+  const std::string& scene_name() const { return scene_.name; }
+  BodyId selected() const { return selection_.main(); }
+  const Selection& selection() const { return selection_; }
+  /// The contact that is looked at; null when there is none, or nothing is known of it yet.
+  const ContactView* contact() const { return probe_.view(); }
+  bool dragging() const { return pointer_.drag().active(); }
+  bool recording() const { return world_.recorder().active(); }
+  int threads() const { return options_.threads; }
+  const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
+  const Measures& measures() const { return measures_; }
+  const Thumbnails& thumbnails() const { return thumbnails_; }
+  const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
+  const SceneMarks& marks() const { return marks_.marks(); }
+  const Ruler& ruler() const { return ruler_; }
+  /// Null: nothing is compared.
+  const WorldComparison* comparison() const { return second_.comparison(); }
+  WorldSettings settings() const { return settings_.value(); }
+  void ask(const UiRequest& request) { apply(request); }
+  /// Nothing: the scene teaches nothing.
+  std::optional<LessonView> lesson() const { return lesson_view(); }
 
-    // -- for scripts, tests and the status file
-    // -----------------------------------------------------
-    std::optional<ScriptedInput::Point> locate(std::string_view place) const;
-    Session& session() { return world_.session(); }
-    UiHost& ui() { return host_; }
-    UiState& ui_state() { return ui_; }
-    CameraController& camera() { return camera_.controller(); }
-    const SessionView& view() const { return world_.view(); }
-    const RenderScene& picture() const { return canvas_.picture(); }
-    const FrameReport& report() const { return canvas_.report(); }
-    const ViewArea& area() const { return area_; }
-    const std::string& scene_name() const { return scene_.name; }
-    BodyId selected() const { return selection_.main(); }
-    const Selection& selection() const { return selection_; }
-    /// The contact that is looked at; null when there is none, or nothing is known of it yet.
-    const ContactView* contact() const { return probe_.view(); }
-    bool dragging() const { return pointer_.drag().active(); }
-    bool recording() const { return world_.recorder().active(); }
-    int threads() const { return options_.threads; }
-    const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
-    const Measures& measures() const { return measures_; }
-    const Thumbnails& thumbnails() const { return thumbnails_; }
-    const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
-    const SceneMarks& marks() const { return marks_.marks(); }
-    const Ruler& ruler() const { return ruler_; }
-    /// Null: nothing is compared.
-    const WorldComparison* comparison() const { return second_.comparison(); }
-    WorldSettings settings() const { return settings_.value(); }
-    void ask(const UiRequest& request) { apply(request); }
-    /// Nothing: the scene teaches nothing.
-    std::optional<LessonView> lesson() const { return lesson_view(); }
-
-   private:
-    /// A question with what each answer does.
-    struct OpenQuestion {
-      Question question;
-      std::vector<std::function<void()>> answers;
-      bool quits = false;  ///< asked before leaving: asking once more leaves
-    };
-    Application(ApplicationOptions options, Canvas canvas);
-    void show(OpenedScene scene);
-    void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice);
-    void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
-    void look_at_view();
-    UiModel model() const;
-    void route(std::span<const InputEvent> events, double dt);
-    bool route_key(const KeyPressed& key);
-    std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
-    void close_something();
-    void open_inspector();
-    void end_building();
-    void apply(const PointerEffects& effects);
-    void apply(const UiRequest& request);
-    std::string name_of(BodyId id) const;
-    DeedEdits begin_edit(std::string what, bool by_gesture = false);
-    Removal begin_removal(std::string what);
-    void save_scene();
-    void write_scene(const std::string& file);
-    void ask(OpenQuestion question);
-    void answer(size_t choice);
-    void look_at_files(double dt);
-    void take_up(std::string text, std::filesystem::path called = {});
-    void offer_kept_work();
-    void offer_unnamed_work();
-    bool in_gesture() const;
-    void take_back();
-    void do_again();
-    void delete_selected();
-    void duplicate_selected();
-    void copy_selected();
-    void paste();
-    void select_all();
-    void select_box(const PointerBox& box);
-    void show_handles(HandleKind kind);
-    void arrange(const PointerEffects& effects);
-    void arrange_to(double x, double y);
-    void hold_arranged();
-    void displace_selected(const Displacement& way);
-    std::string selected_names() const;
-    Handles::View handles_view() const;
-    ArrangeGestures gestures() const;
-    std::optional<Vec3> handle_grip(std::string_view name) const;
-    void change_settings(const WorldSettings& wanted);
-    void edit_body(const EditBody& edit);
-    void edit_joint(const EditJoint& edit);
-    void take_mesh_modes();
-    void remove_joint(JointId id);
-    void add_parts(PartKind kind, const Vec3& at, const Vec3& normal, double size);
-    void edit_part(const EditPart& edit);
-    void remove_part(const RemovePart& removal);
-    void draw_emitters();
-    void begin_building();
-    void keep_hints();
-    void build_at(double x, double y, const std::optional<Pick>& hit);
-    void change_parameter(const ChangeParameter& change);
-    void choose(const std::vector<std::string>& overrides, std::string what);
-    bool go_back_on(std::optional<ChoiceHistory::Step> choice);
-    void shoot(const Ray& ray);
-    void end_drag();
-    void look_into(const std::optional<ContactPick>& contact);
-    void forget_what_is_gone();
-    void select_as_then();
-    void restart(bool as_scene);
-    void flip_overlay(bool Overlays::*overlay, Action action);
-    bool shows_anything(bool Overlays::*overlay);
-    void neighbour_scene(int direction);
-    void change_hierarchy_level(int by);
-    void toggle_microscope();
-    void go_to_microscope_step(int step);
-    void draw_marks();
-    Recording new_recording() const;
-    ExtractOptions extract_options() const;
-    void show_notices();
-    void begin_replay(const OpenedScene& scene);
-    void look_at_replay();
-    void tell_of_replay();
-    bool follows_replay() const;
-    void save_replay(bool packed);
-    void toggle_recording(bool video = false);
-    double aspect() const { return area_.aspect(); }
-    bool stands_beside() const;
-    void next_comparison_view();
-    void name_pictures(RenderScene& a, RenderScene& b) const;
-    void look_from(const ViewArea& area);
-    Status draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height);
-    Status draw_sequence(Recorder& recorder);
-    Status draw();
-    Status without_broken_shaders(Status drawn);
-    void save_plain_screenshot();
-    void save_screenshot();
-    void write_measures();
-    std::string marked_scene() const;
-    void open_marks(double tick_seconds);
-    void keep_marks(bool once_more = false);
-    void look_at_marks();
-    bool perform_in_time(Action action);
-    bool apply_in_time(const UiRequest& request);
-    void edit_marks(const std::function<void(TimeMarks&)>& change);
-    void go_to_moment(uint64_t tick);
-    void toggle_loop();
-    void leave_loop();
-    bool recording_forbids(const std::string& what);
-    void add_camera_key();
-    void follow_from_key(const FollowFromKey& wish);
-    std::optional<Vec3> place_of_body(const std::string& name) const;
-    void toggle_flight();
-    void fly();
-    void change_flight(const std::function<void(std::vector<CameraKey>&)>& change);
-    void save_plot();
-    void rule_at(const std::optional<Pick>& hit);
-    void keep_preferences();
-    void browse(const std::string& folder);
-    void begin_lesson();
-    void turn_lesson_page(size_t step);
-    void show_lesson_page(bool turned);
-    void answer_lesson(const std::string& said);
-    void take_lesson_choice();
-    bool lesson_choice_is_taken(const std::vector<std::string>& choose) const;
-    std::optional<LessonView> lesson_view() const;
-
-    ApplicationOptions options_;
-    Canvas canvas_;
-    ShownWorld world_;
-    OpenedScene scene_;  ///< without its world
-    SceneLoader loader_;
-    ShownSettings settings_;
-    SceneCamera camera_;
-    uint64_t newest_tick_ = 0;   ///< seen on this course of history
-    bool other_course_ = false;  ///< another one begins with the next jump
-    EditHistory edits_;
-    ChoiceHistory choices_;
-    std::optional<ChoiceHistory::Step> choosing_;  ///< what the scene is being opened for
-    Duplicator duplicator_;
-    Builder builder_;
-    ComparisonDesk second_;
-    Arranger arranger_;
-    BodyClipboard clipboard_;
-    std::optional<PointerBox> box_;  ///< being drawn around bodies
-    std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
-    SelectedDef selected_def_;
-    MeshModes mesh_modes_;
-    MeshPalette mesh_palette_;
-    PartsDesk parts_;
-    Refusal refusal_;
-    SceneSaver saver_;
-    bool save_named_ = false;  ///< where it would go was proposed: from then on a person says
-    ReplaySaver replay_saver_;
-    uint64_t replay_deeds_ = 0;  ///< of the replay that is played, as far as panels have seen them
-    UnsavedWork unsaved_;
-    FileWatch file_watch_;
-    bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
-    std::optional<OpenQuestion> question_;
-    History history_;
-    Measures measures_;
-    MarksDesk marks_;
-    Ruler ruler_;
-    Overlays lesson_overlays_;            ///< those that the page shown has switched on
-    std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
-    MicroscopeDesk microscope_;
-    MicroscopeProbe microscope_probe_;
-    ContactProbe probe_;
-    Selection selection_;
-    std::vector<BodyId> selected_then_;  ///< at the moment that undo or redo goes to
-
-    UiHost host_;
-    UiState ui_;
-    UiDrawList ui_list_;
-    UiRect free_area_;  ///< of the scene, between the panels [UI units]
-    ViewArea area_;     ///< of its picture, or both pictures
-    Pointer pointer_;
-    Hand hand_;
-    std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
-    Screenshots screenshots_;
-    Thumbnails thumbnails_;
-    std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
-    Picture size_{0, 0, 1, 0};           ///< of the picture under way
-    bool own_flight_ = false;            ///< the camera is on that of a person, not on the scene's
-    bool plot_wanted_ = false;           ///< as a picture
-    bool searched_ = false;              ///< for something to be plotted
-    std::set<std::string> broken_shaders_;  ///< those that were told of
-    bool quit_ = false, full_screen_ = false;
+ private:
+  /// A question with what each answer does.
+  struct OpenQuestion {
+    Question question;
+    std::vector<std::function<void()>> answers;
+    bool quits = false;  ///< asked before leaving: asking once more leaves
   };
+  Application(ApplicationOptions options, Canvas canvas);
+  void show(OpenedScene scene);
+  void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice);
+  void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
+  void look_at_view();
+  UiModel model() const;
+  void route(std::span<const InputEvent> events, double dt);
+  bool route_key(const KeyPressed& key);
+  std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
+  void close_something();
+  void open_inspector();
+  void end_building();
+  void apply(const PointerEffects& effects);
+  void apply(const UiRequest& request);
+  std::string name_of(BodyId id) const;
+  DeedEdits begin_edit(std::string what, bool by_gesture = false);
+  Removal begin_removal(std::string what);
+  void save_scene();
+  void write_scene(const std::string& file);
+  void ask(OpenQuestion question);
+  void answer(size_t choice);
+  void look_at_files(double dt);
+  void take_up(std::string text, std::filesystem::path called = {});
+  void offer_kept_work();
+  void offer_unnamed_work();
+  bool in_gesture() const;
+  void take_back();
+  void do_again();
+  void delete_selected();
+  void duplicate_selected();
+  void copy_selected();
+  void paste();
+  void select_all();
+  void select_box(const PointerBox& box);
+  void show_handles(HandleKind kind);
+  void arrange(const PointerEffects& effects);
+  void arrange_to(double x, double y);
+  void hold_arranged();
+  void displace_selected(const Displacement& way);
+  std::string selected_names() const;
+  Handles::View handles_view() const;
+  ArrangeGestures gestures() const;
+  std::optional<Vec3> handle_grip(std::string_view name) const;
+  void change_settings(const WorldSettings& wanted);
+  void edit_body(const EditBody& edit);
+  void edit_joint(const EditJoint& edit);
+  void take_mesh_modes();
+  void remove_joint(JointId id);
+  void add_parts(PartKind kind, const Vec3& at, const Vec3& normal, double size);
+  void edit_part(const EditPart& edit);
+  void remove_part(const RemovePart& removal);
+  void draw_emitters();
+  void begin_building();
+  void keep_hints();
+  void build_at(double x, double y, const std::optional<Pick>& hit);
+  void change_parameter(const ChangeParameter& change);
+  void choose(const std::vector<std::string>& overrides, std::string what);
+  bool go_back_on(std::optional<ChoiceHistory::Step> choice);
+  void shoot(const Ray& ray);
+  void end_drag();
+  void look_into(const std::optional<ContactPick>& contact);
+  void forget_what_is_gone();
+  void select_as_then();
+  void restart(bool as_scene);
+  void flip_overlay(bool Overlays::*overlay, Action action);
+  bool shows_anything(bool Overlays::*overlay);
+  void neighbour_scene(int direction);
+  void change_hierarchy_level(int by);
+  void toggle_microscope();
+  void go_to_microscope_step(int step);
+  void draw_marks();
+  Recording new_recording() const;
+  ExtractOptions extract_options() const;
+  void show_notices();
+  void begin_replay(const OpenedScene& scene);
+  void look_at_replay();
+  void tell_of_replay();
+  bool follows_replay() const;
+  void save_replay(bool packed);
+  void toggle_recording(bool video = false);
+  double aspect() const { return area_.aspect(); }
+  bool stands_beside() const;
+  void next_comparison_view();
+  void name_pictures(RenderScene& a, RenderScene& b) const;
+  void look_from(const ViewArea& area);
+  Status draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height);
+  Status draw_sequence(Recorder& recorder);
+  Status draw();
+  Status without_broken_shaders(Status drawn);
+  void save_plain_screenshot();
+  void save_screenshot();
+  void write_measures();
+  std::string marked_scene() const;
+  void open_marks(double tick_seconds);
+  void keep_marks(bool once_more = false);
+  void look_at_marks();
+  bool perform_in_time(Action action);
+  bool apply_in_time(const UiRequest& request);
+  void edit_marks(const std::function<void(TimeMarks&)>& change);
+  void go_to_moment(uint64_t tick);
+  void toggle_loop();
+  void leave_loop();
+  bool recording_forbids(const std::string& what);
+  void add_camera_key();
+  void follow_from_key(const FollowFromKey& wish);
+  std::optional<Vec3> place_of_body(const std::string& name) const;
+  void toggle_flight();
+  void fly();
+  void change_flight(const std::function<void(std::vector<CameraKey>&)>& change);
+  void save_plot();
+  void rule_at(const std::optional<Pick>& hit);
+  void keep_preferences();
+  void browse(const std::string& folder);
+  void begin_lesson();
+  void turn_lesson_page(size_t step);
+  void show_lesson_page(bool turned);
+  void answer_lesson(const std::string& said);
+  void take_lesson_choice();
+  bool lesson_choice_is_taken(const std::vector<std::string>& choose) const;
+  std::optional<LessonView> lesson_view() const;
+
+  ApplicationOptions options_;
+  Canvas canvas_;
+  ShownWorld world_;
+  OpenedScene scene_;  ///< without its world
+  SceneLoader loader_;
+  ShownSettings settings_;
+  SceneCamera camera_;
+  uint64_t newest_tick_ = 0;   ///< seen on this course of history
+  bool other_course_ = false;  ///< another one begins with the next jump
+  EditHistory edits_;
+  ChoiceHistory choices_;
+  std::optional<ChoiceHistory::Step> choosing_;  ///< what the scene is being opened for
+  Duplicator duplicator_;
+  Builder builder_;
+  ComparisonDesk second_;
+  Arranger arranger_;
+  BodyClipboard clipboard_;
+  std::optional<PointerBox> box_;  ///< being drawn around bodies
+  std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
+  SelectedDef selected_def_;
+  MeshModes mesh_modes_;
+  MeshPalette mesh_palette_;
+  PartsDesk parts_;
+  Refusal refusal_;
+  SceneSaver saver_;
+  bool save_named_ = false;  ///< where it would go was proposed: from then on a person says
+  ReplaySaver replay_saver_;
+  uint64_t replay_deeds_ = 0;  ///< of the replay that is played, as far as panels have seen them
+  UnsavedWork unsaved_;
+  FileWatch file_watch_;
+  bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
+  std::optional<OpenQuestion> question_;
+  History history_;
+  Measures measures_;
+  MarksDesk marks_;
+  Ruler ruler_;
+  Overlays lesson_overlays_;            ///< those that the page shown has switched on
+  std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
+  MicroscopeDesk microscope_;
+  MicroscopeProbe microscope_probe_;
+  ContactProbe probe_;
+  Selection selection_;
+  std::vector<BodyId> selected_then_;  ///< at the moment that undo or redo goes to
+
+  UiHost host_;
+  UiState ui_;
+  UiDrawList ui_list_;
+  UiRect free_area_;  ///< of the scene, between the panels [UI units]
+  ViewArea area_;     ///< of its picture, or both pictures
+  Pointer pointer_;
+  Hand hand_;
+  std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
+  Screenshots screenshots_;
+  Thumbnails thumbnails_;
+  std::optional<FolderView> browsed_;     ///< none: the list of scenes is shown
+  Picture size_{0, 0, 1, 0};              ///< of the picture under way
+  bool own_flight_ = false;               ///< the camera is on that of a person, not on the scene's
+  bool plot_wanted_ = false;              ///< as a picture
+  bool searched_ = false;                 ///< for something to be plotted
+  std::set<std::string> broken_shaders_;  ///< those that were told of
+  bool quit_ = false, full_screen_ = false;
+};
 
 }  // namespace tumble
