@@ -1,6 +1,5 @@
 // Saving what was changed in a running world. Reference: the world that the saved file gives has
 // the changed values, and every other body as before; lines that were not meant keep their bytes.
-#include "engine/scene/saving/changed_lines.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 
 #include "engine/math/det/det.hpp"
@@ -8,6 +7,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/scene/saving/changed_lines.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/temp_folder.hpp"

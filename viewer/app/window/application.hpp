@@ -65,8 +65,8 @@ struct ApplicationOptions {
 
 /// The program behind the window, without the window: passes input to its parts, actions and
 /// requests to the world, and draws. Drives a real window, and tests on EGL, OSMesa and the null
-/// device in the same way. Everything a person does to the world goes through World commands on
-/// the session.
+/// device in the same way. Everything a person does to the world goes through World commands on the
+/// session.
 class Application {
  public:
   struct Picture {
@@ -101,14 +101,13 @@ class Application {
   double zoom() const { return ui_.zoom; }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
-  /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the
-  /// new one is ready, and stays with a list of the faults when it cannot be opened.
+  /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
+  /// one is ready, and stays with a list of the faults when it cannot be opened.
   void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
   void open(SceneWish wish);
   void perform(Action action);
 
-  // -- for scripts, tests and the status file
-  // -----------------------------------------------------
+  // -- for scripts, tests and the status file -----------------------------------------------------
   std::optional<ScriptedInput::Point> locate(std::string_view place) const;
   Session& session() { return world_.session(); }
   UiHost& ui() { return host_; }
