@@ -120,7 +120,12 @@ TEST_CASE("answers are judged by the lesson's number, or by the world at its mom
   CHECK(verdict(rig, 2) == AnswerVerdict::wrong);
   give_answer(rig, "7");
   CHECK(verdict(rig, 2) == AnswerVerdict::right);
-  rig.play("key PageDown\nwait 2");
+  // Who goes back finds each answer beside its verdict.
+  rig.play("key PageUp\nwait 2");
+  CHECK(rig.app->ui_state().lesson_typed == "4.905");
+  rig.play("key PageUp\nwait 2");
+  CHECK(rig.app->ui_state().lesson_typed == "1,5m");
+  rig.play("key PageDown\nwait 2\nkey PageDown\nwait 2\nkey PageDown\nwait 2");
   CHECK(rig.app->lesson()->questions() == 3);
   CHECK(rig.app->lesson()->answered() == 3);
   check_no_faults(*device);

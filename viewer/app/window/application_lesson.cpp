@@ -26,7 +26,9 @@ void Application::turn_lesson_page(size_t step) {
 
 void Application::show_lesson_page(bool turned) {
   const SceneLesson::Wants& wants = scene_.lesson->wants();
-  ui_.lesson_typed.clear();
+  const LessonView lesson = scene_.lesson->view();
+  const auto& question = lesson.steps[lesson.step].question;
+  ui_.lesson_typed = question ? question->said : "";  // stands beside its verdict
   ui_.lesson_hint = false;
   ui_.content_height[size_t(PanelId::lesson)] = 0;
   // Those of the page before go; what a person switched on stays.

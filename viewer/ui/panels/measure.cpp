@@ -4,7 +4,9 @@
 #include "viewer/ui/widgets.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -81,13 +83,18 @@ TimeCurve curve_of(const Measures::Series& series, size_t index) {
           palette::series[index % palette::series_count], series.at, series.values};
 }
 
+/// Whole numbers of things have no digits behind the point.
+std::string value_text(double value, const std::string& unit) {
+  const bool whole = unit.empty() && std::abs(value) < 1e6 && value == std::rint(value);
+  return whole ? fmt::format("{:.0f}", value) : quantity_text(value, unit);
+}
+
 void draw_heading(PanelContext& context, const Measures::Series& series, size_t index) {
   ImGui::PushID(int(index));
   ImGui::AlignTextToFramePadding();
   const float end = ImGui::GetContentRegionMax().x - 26;
-  const std::string now = series.values.empty()
-                              ? "-"
-                              : quantity_text(double(series.values.back()), series.quantity.unit);
+  const std::string now =
+      series.values.empty() ? "-" : value_text(double(series.values.back()), series.quantity.unit);
   ImGui::PushFont(context.host.fonts().small);
   const float value = ImGui::CalcTextSize(now.c_str()).x + 10;
   const std::string name = shortened(series.quantity.name, end - ImGui::GetCursorPosX() - value);
