@@ -86,15 +86,15 @@ inline void read_anchor(ByteReader& in, Anchor& a) {
 }
 
 template <class T>
-void write_ids(ByteWriter& out, const std::vector<T>& ids) {
-  out.value(uint64_t(ids.size()));
-  for (const T& id : ids) out.value(id);
+void write_array(ByteWriter& out, const std::vector<T>& values) {
+  out.value(uint64_t(values.size()));
+  for (const T& v : values) out.value(v);
 }
 
 template <class T>
-void read_ids(ByteReader& in, std::vector<T>& ids) {
+void read_array(ByteReader& in, std::vector<T>& values) {
   const auto count = in.get<uint64_t>();
-  for (uint64_t i = 0; i < count && in.ok(); ++i) ids.push_back(in.get<T>());
+  for (uint64_t i = 0; i < count && in.ok(); ++i) in.value(values.emplace_back());
 }
 
 /// The alternative with this number, with its defaults; nothing beyond the last.

@@ -252,10 +252,10 @@ void write_force_def(ByteWriter& out, const ForceDef& def) {
   else
     for (const Anchor& a : anchors(def)) write_anchor(out, a);
   if (const FieldTargets* targets = field_targets(def)) {
-    write_ids(out, targets->bodies);
-    write_ids(out, targets->particles);
+    write_array(out, targets->bodies);
+    write_array(out, targets->particles);
   }
-  if (const auto* systems = paired_systems(def)) write_ids(out, *systems);
+  if (const auto* systems = paired_systems(def)) write_array(out, *systems);
   WriteParameters write{out};
   std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(write, d); }, def);
 }
@@ -273,10 +273,10 @@ ForceDef read_force_def(ByteReader& in) {
     mesh->mesh = read_spring_mesh(in);
     if (!mesh->fault().empty()) in.fail();
   } else if (FieldTargets* targets = field_targets(def)) {
-    read_ids(in, targets->bodies);
-    read_ids(in, targets->particles);
+    read_array(in, targets->bodies);
+    read_array(in, targets->particles);
   } else if (auto* systems = paired_systems(def)) {
-    read_ids(in, *systems);
+    read_array(in, *systems);
   }
   ReadParameters read{in};
   std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(read, d); }, def);

@@ -34,18 +34,6 @@ void for_numbers(Def& def, const F& f) {
   f(def.spin);
 }
 
-template <class T>
-void write_array(ByteWriter& out, const std::vector<T>& values) {
-  out.value(uint64_t(values.size()));
-  for (const T& v : values) out.value(v);
-}
-
-template <class T>
-void read_array(ByteReader& in, std::vector<T>& values) {
-  const auto count = in.get<uint64_t>();
-  for (uint64_t i = 0; i < count && in.ok(); ++i) in.value(values.emplace_back());
-}
-
 void write_bursts(ByteWriter& out, const std::vector<Burst>& bursts) {
   out.value(uint64_t(bursts.size()));
   for (const Burst& b : bursts) {
@@ -157,7 +145,7 @@ void write_sink_def(ByteWriter& out, const SinkDef& def) {
   write_pose(out, def.pose);
   for (const bool flag : {def.outside, def.takes_particles, def.takes_bodies})
     out.value(uint8_t(flag));
-  write_ids(out, def.systems);
+  write_array(out, def.systems);
 }
 
 SinkDef read_sink_def(ByteReader& in) {
@@ -166,7 +154,7 @@ SinkDef read_sink_def(ByteReader& in) {
   def.region = read_variant<SinkRegion>(in);
   read_pose(in, def.pose);
   for (bool* flag : {&def.outside, &def.takes_particles, &def.takes_bodies}) *flag = read_flag(in);
-  read_ids(in, def.systems);
+  read_array(in, def.systems);
   return def;
 }
 
