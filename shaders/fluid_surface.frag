@@ -54,7 +54,7 @@ void main() {
   vec3 straight = linear_from_srgb(texelFetch(scene, at, 0).rgb);
   vec3 background = linear_from_srgb(texture(scene, there).rgb);
   vec3 through = exp(-absorb.rgb * thick);
-  float sun = sun_visibility_cheap(p, n);
+  float sun = sun_visibility_cheap(in_shadow_map(p, n));
   vec3 glow = body.rgb * (sky_light(0.6) + 0.35 * sun * sun_colour.rgb) * (0.55 * picture.w);
   vec3 inside = mix(glow, background, through);
 

@@ -1,7 +1,13 @@
 // The ground. BARE: where nothing stands or casts a shadow.
-#include "common.glsl"
+#include "light.glsl"
+#include "colour.glsl"
 #include "shading.glsl"
-in vec3 world;
+in vec3 to_eye;
+in vec2 on_grid;  // in cells
+in vec3 in_shadow;
+in vec2 on_contact;
+flat in vec4 paint;  // a: with a grid
+flat in vec4 lines;
 out vec4 picture_out;
 
 // Share of a pixel of width w that lines at whole numbers, `half_width` wide, cover: the exact
@@ -23,24 +29,20 @@ float grid_cover(vec2 p, float half_width) {
 }
 
 void main() {
-  vec3 to_eye = eye.xyz - world;
   float d = length(to_eye);
-  vec3 base = ground_colour.rgb;
-  if (ground.z > 0.5) {
-    vec2 p = world.xz / ground.y;
-    float fine = 0.7 * grid_colour.a * grid_cover(p, 0.009);
-    float coarse = (0.7 + 0.3 * grid_colour.a) * grid_cover(0.1 * p, 0.0018);
-    base = mix(base, grid_colour.rgb, max(fine, coarse));
+  vec3 base = paint.rgb;
+  if (paint.a > 0.5) {
+    float fine = 0.7 * lines.a * grid_cover(on_grid, 0.009);
+    float coarse = (0.7 + 0.3 * lines.a) * grid_cover(0.1 * on_grid, 0.0018);
+    base = mix(base, lines.rgb, max(fine, coarse));
   }
-  vec3 n = vec3(0.0, 1.0, 0.0);
 #ifdef BARE
   float lit = to_sun.y, shade = 1.0;
 #else
-  float lit = to_sun.y * sun_visibility(world, n);
-  float shade = contact_shade(world, 1.0);
+  float lit = to_sun.y * sun_visibility(in_shadow);
+  float shade = contact_shade(on_contact, 1.0, 1.0);
 #endif
-  vec3 v = to_eye / d;
-  float e1 = 1.0 - max(v.y, 0.0), e2 = e1 * e1;
+  float e1 = 1.0 - max(to_eye.y / d, 0.0), e2 = e1 * e1;
   vec3 radiance = base * (max(lit, 0.0) * sun_colour.rgb + sky_light(1.0) * shade) +
                   0.25 * e2 * e2 * e1 * horizon.rgb * shade;
   picture_out = vec4(with_haze(picture_colour(radiance), d), 1.0);

@@ -1,22 +1,27 @@
 // Light on bodies. FINE: every sample of shadow and contact shade; else what a processor can bear.
-#include "common.glsl"
 #include "shading.glsl"
 
+// Where a point of a body is, as seen from it.
+struct Place {
+  vec3 to_eye;     // [m]
+  vec3 in_shadow;  // in the shadow map
+  vec3 on_ground;  // in the contact map, and its lowness
+};
+
 // Picture colour of a point with unit normal n; look: roughness, metallic, emission.
-vec3 lit_picture_colour(vec3 world, vec3 n, vec3 base, vec3 look) {
-  vec3 to_eye = eye.xyz - world;
-  float d2 = dot(to_eye, to_eye);
+vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
+  float d2 = dot(place.to_eye, place.to_eye);
   float inv_d = inversesqrt(d2);
-  vec3 v = to_eye * inv_d;
+  vec3 v = place.to_eye * inv_d;
   vec3 l = to_sun.xyz;
   float ndl = max(dot(n, l), 0.0);
   float ndv = max(dot(n, v), 0.0);
 #ifdef FINE
-  float lit = ndl * sun_visibility(world, n);
-  float shade = contact_shade(world, 0.5 - 0.5 * n.y);
+  float lit = ndl * sun_visibility(place.in_shadow);
+  float shade = contact_shade(place.on_ground.xy, place.on_ground.z, 0.5 - 0.5 * n.y);
 #else
-  float lit = ndl * sun_visibility_cheap(world, n);
-  float shade = low_shade(world.y, 0.5 - 0.5 * n.y);
+  float lit = ndl * sun_visibility_cheap(place.in_shadow);
+  float shade = low_shade(place.on_ground.z, 0.5 - 0.5 * n.y);
 #endif
 
   // GGX with Schlick's Fresnel and the visibility term of Karis (SIGGRAPH 2013).

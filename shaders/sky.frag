@@ -1,9 +1,11 @@
 #version 330 core
-#include "common.glsl"
-in vec2 uv;
+#include "srgb.glsl"
+in vec3 direction;
+flat in vec4 v_zenith, v_horizon, v_sun, v_to_sun;
+#define sky_zenith v_zenith
+#define sky_horizon v_horizon
+#define sun_colour v_sun
+#define to_sun v_to_sun
+#include "sky.glsl"
 out vec4 picture_out;
-void main() {
-  vec2 s = 2.0 * uv - 1.0;
-  vec3 d = normalize(view_forward.xyz + s.x * view_right.xyz + s.y * view_up.xyz);
-  picture_out = vec4(sky_colour(d), 1.0);
-}
+void main() { picture_out = vec4(sky_colour(normalize(direction)), 1.0); }

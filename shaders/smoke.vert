@@ -24,7 +24,7 @@ void main() {
   on_card = p;
   on_puff = corner + (0.25 + 0.242 * p);
   sun_in_puff = vec3(dot(r, to_sun.xyz), dot(u, to_sun.xyz), -dot(ahead, to_sun.xyz));
-  float sun = look.x * sun_visibility_cheap(place.xyz, vec3(0.0));
+  float sun = look.x * sun_visibility_cheap(in_shadow_map(place.xyz, vec3(0.0)));
   vec3 sky = mix(below.rgb, zenith.rgb, 0.6) * 0.5 + 0.5 * horizon.rgb;
   vec3 own = colour.rgb * look.y;
   lit = with_haze(picture_colour(colour.rgb * (sky + sun * sun_colour.rgb) + own), d);

@@ -1,5 +1,6 @@
 // A particle: the sphere that the ray through this pixel meets, lit as any body. An opacity beyond 1
 // says how much light it gives off besides.
+#include "common.glsl"
 #include "lighting.glsl"
 in vec3 on_card;
 flat in vec4 v_sphere;
@@ -20,7 +21,9 @@ void main() {
   vec3 world = v_sphere.xyz + nearest - depth * ray;
   vec4 clip = clip_from_world * vec4(world, 1.0);
   gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
+  Place place = Place(eye.xyz - world, in_shadow_map(world, n),
+                      vec3(in_contact_map(world), lowness(world.y)));
   picture_out =
-      vec4(lit_picture_colour(world, n, v_colour.rgb, vec3(0.5, 0.0, max(v_colour.a - 1.0, 0.0))),
+      vec4(lit_picture_colour(place, n, v_colour.rgb, vec3(0.5, 0.0, max(v_colour.a - 1.0, 0.0))),
            min(v_colour.a, 1.0) * cover);
 }

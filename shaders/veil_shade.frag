@@ -21,7 +21,7 @@ void main() {
   float size = length(across);
   vec3 n = size > 0.0 ? across / size : vec3(0.0, 1.0, 0.0);
   float sun = max(dot(n, to_sun.xyz), 0.0) * dot(sun_colour.rgb, vec3(0.333)) *
-              sun_visibility_cheap(at, n);
+              sun_visibility_cheap(in_shadow_map(at, n));
   float share = sun / (sun + dot(sky_light(n.y), vec3(0.333)) + 1e-4);
   picture_out.rgb = srgb_from_linear(1.0 - behind * share * (1.0 - left.rgb));
 }

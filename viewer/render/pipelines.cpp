@@ -216,7 +216,7 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   d = screen_desc();
   d.depth_test = DepthTest::less_equal;
   d.uniform_blocks = {"Frame"};
-  p.sky = maker.make("sky", d, "screen.vert", "sky.frag");
+  p.sky = maker.make("sky", d, "sky.vert", "sky.frag");
 
   for (const bool line : {true, false}) {
     const char* vertex = line ? "line.vert" : "point.vert";
