@@ -1,6 +1,7 @@
 #version 330 core
 #include "common.glsl"
 #include "shading.glsl"
+#include "soft.glsl"
 layout(location = 0) in vec4 place;   // centre, radius [m]
 layout(location = 1) in vec4 colour;  // linear, opacity
 layout(location = 2) in vec4 look;    // share of the sun that smoke has left, glow, cosine, sine
@@ -10,7 +11,8 @@ out vec2 on_puff;  // in the atlas
 out vec2 on_card;  // -1..1
 flat out vec3 lit, shaded;  // picture colours towards the sun and away from it
 flat out vec3 sun_in_puff;  // direction in the axes of the puff's picture
-flat out vec2 opacity_radius;
+flat out float scale;
+flat out vec4 v_look;  // opacity, radius [m], near, far [m]
 out float z;
 
 void main() {
@@ -29,7 +31,8 @@ void main() {
   vec3 own = colour.rgb * look.y;
   lit = with_haze(picture_colour(colour.rgb * (sky + sun * sun_colour.rgb) + own), d);
   shaded = with_haze(picture_colour(colour.rgb * (0.75 * sky + 0.12 * sun * sun_colour.rgb) + own), d);
-  opacity_radius = vec2(colour.a, place.w);
+  scale = depths.w;
+  v_look = vec4(colour.a, place.w, depths.xy);
   z = dot(world - eye.xyz, view_forward.xyz);
   gl_Position = clip_from_world * vec4(world, 1.0);
 }

@@ -55,7 +55,7 @@ static_assert(sizeof(GpuPuff) == 56);
 struct GpuSoft {
   std::array<float, 16> veil_from_world;  ///< to 0..1 over the veil; depth away from the sun
   std::array<float, 4> veil;              ///< 1/softness of its front edge, on, texel, unused
-  std::array<float, 4> depths;  ///< near, far [m], pixels at distance 1, texels of targets a pixel
+  std::array<float, 4> depths;  ///< near, far [m], pixels at distance 1, pixels by texel of smoke
   std::array<float, 4> absorb;  ///< [1/m], thickness of a chord over its length [-]
   std::array<float, 4> body;    ///< colour, most foam
   std::array<float, 4> smooth;  ///< reach, narrow range, step behind it [m], most texels

@@ -125,7 +125,7 @@ class Maker {
 void make_soft(Maker& maker, Pipelines& p) {
   PipelineDesc d = soft_screen_desc({"shadow_map", "scene_depth", "sun_veil"});
   d.blend = Blend::multiply;
-  p.veil_shade = maker.make("veil_shade", d, "screen.vert", "veil_shade.frag");
+  p.veil_shade = maker.make("veil_shade", d, "veil_shade.vert", "veil_shade.frag");
   d = soft_screen_desc({"source"});
   p.narrow_range_x = maker.make("narrow_range_x", d, "screen.vert", "narrow_range_x.frag");
   p.narrow_range_y = maker.make("narrow_range_y", d, "screen.vert", "narrow_range_y.frag");
@@ -142,6 +142,9 @@ void make_soft(Maker& maker, Pipelines& p) {
   d.depth_write = true;
   p.fluid_surface = maker.make("fluid_surface", d, "screen.vert", "fluid_surface.frag");
   p.smoke = maker.make("smoke", puff_desc(), "smoke.vert", "smoke.frag");
+  d = soft_screen_desc({"smoke", "scene_depth"});
+  d.blend = Blend::premultiplied;
+  p.smoke_cover = maker.make("smoke_cover", d, "smoke_cover.vert", "smoke_cover.frag");
 }
 
 }  // namespace
@@ -278,6 +281,7 @@ void Pipelines::destroy(Device& device) {
                          &fluid_thickness,
                          &fluid_surface,
                          &smoke,
+                         &smoke_cover,
                          &ui}) {
     if (*id) device.destroy(*id);
     *id = {};

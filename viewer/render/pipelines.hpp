@@ -24,7 +24,7 @@ struct Pipelines {
   PipelineId place;  ///< a finished picture as part of another
   /// Of liquids and smoke: also the block Soft, textures after shadow_map as SoftPass gives them.
   PipelineId veil_shade, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
-      fluid_surface, smoke;
+      fluid_surface, smoke, smoke_cover;
 
   /// Compiles all; on failure those already made are destroyed.
   static Result<Pipelines> create(Device& device, const std::filesystem::path& folder);

@@ -252,7 +252,7 @@ Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& target
   const int width = targets.drawn_width(), height = targets.drawn_height();
   const bool soft = scene.has_soft_matter();
   if (soft)
-    if (Status s = soft_.prepare(width, height); !s) return s;
+    if (Status s = soft_.prepare(width, height, scene.quality); !s) return s;
   const FrameSetup setup = make_frame_setup(scene, width, height);
   make_draw_plan(scene, setup.view, plan_);
   plan_ground(scene, setup, ground_plan_);
@@ -272,10 +272,11 @@ Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& target
   if (soft) {
     device_.end_pass();
     soft_.draw_liquids(scene, setup, targets.canvas(), call({}));
+    soft_.draw_smoke(scene, setup, call({}));
     device_.begin_pass({targets.canvas(), {}, false});
   }
   draw_blended(scene);
-  if (soft) soft_.draw_smoke(scene, setup, call({}));
+  if (soft) soft_.cover_with_smoke(call({}));
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();

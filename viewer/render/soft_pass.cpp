@@ -58,21 +58,23 @@ Status SoftPass::make(TargetId& target, const TargetDesc& desc) {
 }
 
 void SoftPass::release() {
-  for (TargetId* t : {&behind_, &front_, &other_, &thickness_}) {
+  for (TargetId* t : {&behind_, &front_, &other_, &thickness_, &smoke_}) {
     if (*t) device_.destroy(*t);
     *t = {};
   }
   width_ = height_ = 0;
 }
 
-Status SoftPass::prepare(int width, int height) {
+Status SoftPass::prepare(int width, int height, Quality quality) {
   if (!puffs_) {
     const PuffAtlas atlas = make_puff_atlas();
     puffs_ = device_.create_texture(TextureFormat::rgba8_linear_filter, atlas.size, atlas.size,
                                     std::as_bytes(std::span(atlas.texels)));
   }
-  if (width == width_ && height == height_) return {};
+  const int scale = quality == Quality::high ? 1 : 2;
+  if (width == width_ && height == height_ && scale == smoke_scale_) return {};
   release();
+  smoke_scale_ = scale;
   TargetDesc d;
   d.width = width;
   d.height = height;
@@ -87,6 +89,10 @@ Status SoftPass::prepare(int width, int height) {
   d.height = (height + 1) / 2;
   d.colour = ColourAttachment::rgba16f;
   if (s) s = make(thickness_, d);
+  d.width = (width + scale - 1) / scale;
+  d.height = (height + scale - 1) / scale;
+  d.colour = ColourAttachment::rgba8;
+  if (s) s = make(smoke_, d);
   if (!s) {
     release();
     return s;
@@ -136,7 +142,7 @@ void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, T
   device_.resolve_depth(canvas, behind_);
   soft_ = {};
   soft_.depths = {float(setup.camera.near), float(setup.camera.far),
-                  float(setup.view.pixels_per_radian), 0};
+                  float(setup.view.pixels_per_radian), float(smoke_scale_)};
   cast_shade(scene, setup, canvas, base);
   if (scene.fluids.empty()) return;
   device_.resolve(canvas, behind_);
@@ -201,13 +207,28 @@ void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Q
 
 void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base) {
   const std::vector<GpuPuff> puffs = plan_smoke(scene, setup.view, veil_);
-  if (puffs.empty()) return;
+  smoke_area_ = smoke_area(puffs, setup.view);
+  if (!smoke_area_) return;
   device_.update_buffer(uniforms_, bytes_of(soft_));
   device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
+  device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 0}, false});
   DrawCall c = call(base, pipelines_.smoke, {puffs_, device_.depth_texture(behind_)});
   c.instances = puff_instances_;
   c.count = 4;
   c.instance_count = uint32_t(puffs.size());
+  device_.draw(c);
+  device_.end_pass();
+}
+
+void SoftPass::cover_with_smoke(const DrawCall& base) {
+  if (!smoke_area_) return;
+  DrawCall c = base;
+  c.pipeline = pipelines_.smoke_cover;
+  c.uniforms[1] = {uniforms_, 0, sizeof(GpuSoft)};
+  c.textures[0] = device_.colour_texture(smoke_);
+  c.textures[1] = device_.depth_texture(behind_);
+  c.count = 3;
+  c.scissor = *smoke_area_;
   device_.draw(c);
 }
 

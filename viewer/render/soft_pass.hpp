@@ -13,7 +13,9 @@ namespace tumble {
 ///   much
 ///     of it there is (fluid_thickness, half size), and the surface onto the canvas
 ///     (fluid_surface),
-///   after other see-through things, by the renderer: smoke, far to near (smoke).
+///   smoke, far to near, into a target of its own (smoke), at half size unless the quality is high:
+///     it is soft, and overlaps itself most of all that is drawn,
+///   after other see-through things, by the renderer: that smoke over the canvas (smoke_cover).
 class SoftPass {
  public:
   SoftPass(Device& device, const Pipelines& pipelines);
@@ -21,13 +23,15 @@ class SoftPass {
   SoftPass(const SoftPass&) = delete;
   SoftPass& operator=(const SoftPass&) = delete;
 
-  Status prepare(int width, int height);
+  Status prepare(int width, int height, Quality quality);
   /// Outside a pass. `base`: a call with the frame's constants and the shadow map as its first
   /// texture.
   void draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
                     const DrawCall& base);
-  /// Within the pass that draws into the canvas, after draw_liquids of the same picture.
+  /// Likewise, after draw_liquids of the same picture.
   void draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base);
+  /// Lays it over the canvas, within the pass that draws into that.
+  void cover_with_smoke(const DrawCall& base);
 
  private:
   DrawCall call(const DrawCall& base, PipelineId pipeline, std::initializer_list<TextureId> after);
@@ -42,7 +46,9 @@ class SoftPass {
   Device& device_;
   const Pipelines& pipelines_;
   int width_ = 0, height_ = 0;
-  TargetId behind_, front_, other_, thickness_;
+  int smoke_scale_ = 1;  ///< pixels of the picture that one of the smoke's stands for, each way
+  TargetId behind_, front_, other_, thickness_, smoke_;
+  std::optional<ScissorRect> smoke_area_;  ///< of the picture; none: there is no smoke
   TextureId veil_texture_, puffs_;
   BufferId balls_, puff_instances_, uniforms_;
   SunVeil veil_;

@@ -130,4 +130,18 @@ std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
   return out;
 }
 
+std::optional<ScissorRect> smoke_area(const std::vector<GpuPuff>& puffs, const ViewSetup& view) {
+  if (puffs.empty()) return {};
+  std::vector<ProjectedDisc> discs;
+  for (const GpuPuff& p : puffs) {
+    const Vec3 centre(double(p.place[0]), double(p.place[1]), double(p.place[2]));
+    const auto r = double(p.place[3]);
+    // A puff around the eye has no outline.
+    if (!((centre - view.eye).squaredNorm() > 1.05 * r * r))
+      return ScissorRect{0, 0, view.width, view.height};
+    discs.push_back(disc_in_picture(view, centre, r, true));
+  }
+  return area_of(discs, view.width, view.height);
+}
+
 }  // namespace tumble

@@ -22,5 +22,7 @@ std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, 
 /// The puffs that the camera sees, far to near.
 std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
                                 const SunVeil& veil);
+/// The part of the picture that they are within; none where there are none.
+std::optional<ScissorRect> smoke_area(const std::vector<GpuPuff>& puffs, const ViewSetup& view);
 
 }  // namespace tumble
