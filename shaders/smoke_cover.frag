@@ -15,8 +15,10 @@ float closeness(ivec2 pixel) {
 
 void main() {
   ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(scene_depth, 0) - 1;
+  vec2 place = gl_FragCoord.xy / v_depths.z;
+  if (texture(smoke, place / vec2(textureSize(smoke, 0))).a == 0.0) discard;
+  place -= 0.5;
   float own = closeness(here);
-  vec2 place = gl_FragCoord.xy / v_depths.z - 0.5;
   vec2 low = floor(place), f = place - low;
   vec4 sum = vec4(0.0);
   float weights = 1e-6;

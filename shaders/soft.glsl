@@ -1,7 +1,7 @@
 // Constants of liquids and smoke, and distances from the depth buffer.
 layout(std140) uniform Soft {
   mat4 veil_from_world;  // to 0..1 over the raster of what is left of the sun, and in depth
-  vec4 veil;             // 1 / softness of its front, on, -, -
+  vec4 veil;             // 1 / softness of its front, pixels of the picture by one of its shade, -, -
   vec4 depths;           // near, far [m], pixels of the picture at distance 1, and by texel of smoke
   vec4 absorb;           // [1/m]; thickness that a chord stands for over its length
   vec4 body;             // colour of the liquid, linear; most foam

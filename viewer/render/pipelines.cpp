@@ -126,6 +126,9 @@ void make_soft(Maker& maker, Pipelines& p) {
   PipelineDesc d = soft_screen_desc({"shadow_map", "scene_depth", "sun_veil"});
   d.blend = Blend::multiply;
   p.veil_shade = maker.make("veil_shade", d, "veil_shade.vert", "veil_shade.frag");
+  d.blend = Blend::none;
+  d.covers_target = false;  // what the veil cannot reach is left out
+  p.veil_layer = maker.make("veil_layer", d, "veil_shade.vert", "veil_layer.frag");
   d = soft_screen_desc({"source"});
   p.narrow_range_x = maker.make("narrow_range_x", d, "screen.vert", "narrow_range_x.frag");
   p.narrow_range_y = maker.make("narrow_range_y", d, "screen.vert", "narrow_range_y.frag");
@@ -275,6 +278,7 @@ void Pipelines::destroy(Device& device) {
                          &point_over,
                          &place,
                          &veil_shade,
+                         &veil_layer,
                          &fluid_depth,
                          &narrow_range_x,
                          &narrow_range_y,

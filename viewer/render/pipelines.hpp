@@ -23,7 +23,7 @@ struct Pipelines {
   PipelineId ui;
   PipelineId place;  ///< a finished picture as part of another
   /// Of liquids and smoke: also the block Soft, textures after shadow_map as SoftPass gives them.
-  PipelineId veil_shade, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
+  PipelineId veil_shade, veil_layer, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
       fluid_surface, smoke, smoke_cover;
 
   /// Compiles all; on failure those already made are destroyed.

@@ -34,6 +34,13 @@ std::array<float, 16> floats_of(const Mat4& m) {
   return out;
 }
 
+/// The least rectangle around two.
+ScissorRect around(const ScissorRect& a, const ScissorRect& b) {
+  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x,
+          std::max(a.y + a.height, b.y + b.height) - y};
+}
+
 }  // namespace
 
 SoftPass::SoftPass(Device& device, const Pipelines& pipelines)
@@ -116,6 +123,7 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
   const Vec3 to_sun(setup.uniforms.to_sun[0], setup.uniforms.to_sun[1], setup.uniforms.to_sun[2]);
   const int size = scene.quality == Quality::high ? 512 : 256;
   make_sun_veil(scene, to_sun, setup.region, size, veil_);
+  shade_area_.reset();
   if (veil_.size == 0 || !scene.sun.shadows) return;
   const std::optional<ScissorRect> area = shaded_area(veil_, to_sun, setup.lowest, setup.view);
   if (!area) return;
@@ -127,7 +135,10 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
   float softness = 4.0f / 255;
   for (const FluidSurface& fluid : scene.fluids)
     softness = std::max(softness, 2 * fluid.radius / float(veil_.depth));
-  soft_.veil = {1 / softness, 0, 0, 0};
+  soft_.veil = {1 / softness, 1, 0, 0};
+  shade_area_ = area;
+  // Without liquids the shade has no colour: it is a layer of the smoke (draw_smoke).
+  if (scene.fluids.empty()) return;
   device_.update_buffer(uniforms_, bytes_of(soft_));
   device_.begin_pass({canvas, {}, false});
   DrawCall c = call(base, pipelines_.veil_shade, {device_.depth_texture(behind_), veil_texture_});
@@ -207,16 +218,27 @@ void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Q
 
 void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base) {
   const std::vector<GpuPuff> puffs = plan_smoke(scene, setup.view, veil_);
+  const bool shade = shade_area_ && scene.fluids.empty();
   smoke_area_ = smoke_area(puffs, setup.view);
+  if (shade) smoke_area_ = smoke_area_ ? around(*smoke_area_, *shade_area_) : *shade_area_;
   if (!smoke_area_) return;
+  soft_.veil[1] = float(smoke_scale_);
   device_.update_buffer(uniforms_, bytes_of(soft_));
-  device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
   device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 0}, false});
-  DrawCall c = call(base, pipelines_.smoke, {puffs_, device_.depth_texture(behind_)});
-  c.instances = puff_instances_;
-  c.count = 4;
-  c.instance_count = uint32_t(puffs.size());
-  device_.draw(c);
+  const TextureId depth = device_.depth_texture(behind_);
+  if (shade) {
+    DrawCall c = call(base, pipelines_.veil_layer, {depth, veil_texture_});
+    c.count = 3;
+    device_.draw(c);
+  }
+  if (!puffs.empty()) {
+    device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
+    DrawCall c = call(base, pipelines_.smoke, {puffs_, depth});
+    c.instances = puff_instances_;
+    c.count = 4;
+    c.instance_count = uint32_t(puffs.size());
+    device_.draw(c);
+  }
   device_.end_pass();
 }
 

@@ -7,14 +7,15 @@ namespace tumble {
 
 /// Draws liquids and smoke. What is solid has been drawn into the canvas before, and its depth is
 /// copied; then
-///   the shade that they cast is laid over the canvas where it can fall (veil_shade),
+///   the shade that liquids cast is laid over the canvas where it can fall (veil_shade),
 ///   the canvas is copied, as it is seen through liquids,
 ///   of each liquid: its balls' distance (fluid_depth), that smoothed (narrow_range_x, _y), how
 ///   much
 ///     of it there is (fluid_thickness, half size), and the surface onto the canvas
 ///     (fluid_surface),
 ///   smoke, far to near, into a target of its own (smoke), at half size unless the quality is high:
-///     it is soft, and overlaps itself most of all that is drawn,
+///     it is soft, and overlaps itself most of all that is drawn; where there are no liquids, the
+///     shade that it casts as its first layer (veil_layer),
 ///   after other see-through things, by the renderer: that smoke over the canvas (smoke_cover).
 class SoftPass {
  public:
@@ -48,7 +49,8 @@ class SoftPass {
   int width_ = 0, height_ = 0;
   int smoke_scale_ = 1;  ///< pixels of the picture that one of the smoke's stands for, each way
   TargetId behind_, front_, other_, thickness_, smoke_;
-  std::optional<ScissorRect> smoke_area_;  ///< of the picture; none: there is no smoke
+  /// Of the picture, that shade falls into, and that smoke is in; none: there is none.
+  std::optional<ScissorRect> shade_area_, smoke_area_;
   TextureId veil_texture_, puffs_;
   BufferId balls_, puff_instances_, uniforms_;
   SunVeil veil_;

@@ -142,7 +142,7 @@ TEST_CASE("smoke covers what is behind it, the more the thicker, and shades the 
     return int(p[0]) - int(p[1]);
   };
   CHECK(redness(thin) > redness(clear) + 20);
-  CHECK(redness(thick) > redness(thin) + 20);
+  CHECK(redness(thick) > redness(thin) + 15);
   const Vec3 shade = project(scene.camera, Vec3(1.5, 0, 0), 480, 270);
   CHECK(brightness(thick.at(int(shade.x()), int(shade.y()))) <
         brightness(clear.at(int(shade.x()), int(shade.y()))) - 20);

@@ -1,0 +1,3 @@
+#version 330 core
+#define LAYER
+#include "veil_shade.glsl"
