@@ -54,7 +54,7 @@ static_assert(sizeof(GpuPuff) == 56);
 /// The uniform block Soft of shaders/soft.glsl (std140): of liquids, and of the veil over the sun.
 struct GpuSoft {
   std::array<float, 16> veil_from_world;  ///< to 0..1 over the veil; depth away from the sun
-  std::array<float, 4> veil;              ///< 1/softness of its front edge, pixels by one of its shade
+  std::array<float, 4> veil;    ///< 1/softness of its front edge, pixels by one of its shade
   std::array<float, 4> depths;  ///< near, far [m], pixels at distance 1, pixels by texel of smoke
   std::array<float, 4> absorb;  ///< [1/m], thickness of a chord over its length [-]
   std::array<float, 4> body;    ///< colour, most foam

@@ -9,6 +9,7 @@
 #include "viewer/render/resources.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -146,6 +147,53 @@ TEST_CASE("smoke covers what is behind it, the more the thicker, and shades the 
   const Vec3 shade = project(scene.camera, Vec3(1.5, 0, 0), 480, 270);
   CHECK(brightness(thick.at(int(shade.x()), int(shade.y()))) <
         brightness(clear.at(int(shade.x()), int(shade.y()))) - 20);
+}
+
+TEST_CASE("smoke of half the pixels looks as smoke of all of them, also at the edges of bodies") {
+  Studio studio("auto");
+  RenderScene scene;
+  scene.camera.eye = Vec3(0, 1, 7);
+  scene.camera.target = Vec3(0, 1, 0);
+  // Nothing else depends on the quality.
+  scene.ground.visible = false;
+  scene.sun.shadows = false;
+  for (int k = 0; k < 5; ++k) {
+    MeshInstance ball;
+    ball.mesh = sphere_mesh();
+    ball.transform.offset = Vec3f(-2 + float(k), 1 + 0.3f * float(k % 2), -1 + 0.5f * float(k));
+    ball.transform.linear *= 0.25f;
+    ball.paint.colour = Vec3f(0.02f, 0.02f, 0.02f);
+    scene.instances.push_back(ball);
+  }
+  const auto picture = [&](Quality quality, bool smoke) {
+    scene.quality = quality;
+    scene.smoke.clear();
+    for (uint32_t k = 0; smoke && k < 12; ++k) {
+      SmokePuff puff;
+      puff.centre = Vec3f(-2 + 0.37f * float(k), 1, -0.5f + 0.2f * float(k % 5));
+      puff.radius = 0.9f;
+      puff.colour = Vec3f(0.8f, 0.8f, 0.8f);
+      puff.opacity = 0.5f;
+      puff.kind = k % 4;
+      scene.smoke.push_back(puff);
+    }
+    return studio.picture(scene);
+  };
+  const Image clear = picture(Quality::standard, false);
+  CHECK(clear.pixels == picture(Quality::high, false).pixels);
+  const Image half = picture(Quality::standard, true), all = picture(Quality::high, true);
+  double sum = 0;
+  size_t covered = 0, far = 0;
+  for (size_t i = 0; i < all.pixels.size(); i += 4) {
+    const int apart = std::abs(brightness(&half.pixels[i]) - brightness(&all.pixels[i]));
+    sum += apart * apart;
+    covered += std::abs(brightness(&clear.pixels[i]) - brightness(&all.pixels[i])) > 8;
+    far += apart > 16;
+  }
+  const auto pixels = double(all.pixels.size() / 4);
+  CHECK(covered > 10000);
+  CHECK(std::sqrt(sum / pixels) < 0.8);
+  CHECK(far < covered / 500);
 }
 
 TEST_CASE("all resources are given back") {

@@ -162,6 +162,42 @@ TEST_CASE("smoke is drawn from far to near, without what the camera does not see
   CHECK(puffs[3].place[2] == 4);
 }
 
+TEST_CASE("what a puff covers lies in the part of the picture that is given for smoke") {
+  Random r(5);
+  int seen = 0, parts = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    RenderScene scene;
+    scene.camera.eye = Vec3(r.uniform(-3, 3), r.uniform(-2, 3), r.uniform(1, 8));
+    for (int k = 0; k < 2; ++k)
+      scene.smoke.push_back(puff_at(Vec3f(float(r.uniform(-2, 2)), float(r.uniform(-1, 2)), 0)));
+    const FrameSetup setup = make_frame_setup(scene, 640, 360);
+    const auto puffs = plan_smoke(scene, setup.view, {});
+    const auto area = smoke_area(puffs, setup.view);
+    CHECK(area.has_value() == !puffs.empty());
+    if (!area) continue;
+    parts += area->width * area->height < 640 * 360;
+    // Points of the cards, which face the eye.
+    for (int k = 0; k < 50; ++k) {
+      const auto& place = puffs[r.below(uint32_t(puffs.size()))].place;
+      const Vec3 centre = Vec3f(place[0], place[1], place[2]).cast<double>();
+      const Vec3 ahead = (centre - setup.view.eye).normalized();
+      const Vec3 right = ahead.cross(setup.view.up).normalized(), up = right.cross(ahead);
+      const double angle = r.uniform(0, 2 * M_PI), reach = r.uniform() * double(place[3]);
+      const Vec3 x = centre + reach * (std::cos(angle) * right + std::sin(angle) * up);
+      const Vec4 clip = setup.view.clip_from_world * x.homogeneous();
+      if (clip.head<3>().cwiseAbs().maxCoeff() > clip.w()) continue;
+      const double column = 320 * (clip.x() / clip.w() + 1), row = 180 * (1 - clip.y() / clip.w());
+      CHECK(column >= area->x);
+      CHECK(column <= area->x + area->width);
+      CHECK(row >= area->y);
+      CHECK(row <= area->y + area->height);
+      ++seen;
+    }
+  }
+  CHECK(seen > 3000);
+  CHECK(parts > 100);
+}
+
 TEST_CASE("liquid that moves as a whole does not foam, where streams meet it does") {
   std::vector<Vec3> x;
   std::vector<Vec3f> together, meeting;
