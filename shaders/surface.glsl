@@ -5,17 +5,18 @@
 in vec3 to_eye;
 centroid in vec3 world_normal;
 in vec3 body;
-in vec3 in_shadow, shadow_step, on_ground;
+in vec3 in_shadow, on_ground;
+centroid in vec3 shadow_step;
 flat in vec4 v_colour;
 flat in vec4 v_look;
 flat in vec4 v_pattern;
 out vec4 picture_out;
 
 void main() {
-  float side = gl_FrontFacing ? 1.0 : -1.0;
-  vec3 n = normalize(side * world_normal);
+  float unit = inversesqrt(max(dot(world_normal, world_normal), 1e-12)) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 n = unit * world_normal;
   vec3 base = v_colour.rgb;
   if (v_pattern.x > 0.5) base *= pattern_tone(body, v_pattern);
-  Place place = Place(to_eye, in_shadow + side * shadow_step, on_ground);
+  Place place = Place(to_eye, in_shadow + unit * shadow_step, on_ground);
   picture_out = vec4(lit_picture_colour(place, n, base, v_look.xyz), v_colour.a);
 }

@@ -14,8 +14,10 @@ layout(location = 7) in vec4 pattern;  // kind, strength, size [m], shift [m]
 out vec3 to_eye;  // [m]
 centroid out vec3 world_normal;
 out vec3 body;  // body coordinates [m]
-// In the shadow map, and from there to where it is looked up; in the contact map, and lowness.
-out vec3 in_shadow, shadow_step, on_ground;
+// In the shadow map, and from there along the normal to where it is looked up; in the contact map,
+// and lowness.
+out vec3 in_shadow, on_ground;
+centroid out vec3 shadow_step;
 flat out vec4 v_colour;
 flat out vec4 v_look;
 flat out vec4 v_pattern;
