@@ -2,10 +2,10 @@
 #include "engine/collision/polyhedron_feature.hpp"
 #include "engine/collision/shape_drawing.hpp"
 #include "engine/collision/surface_element.hpp"
-#include "engine/core/debug_draw.hpp"
 #include "engine/core/parameters.hpp"
 #include "engine/core/result.hpp"
 #include "engine/geometry/constructions/ray_casts.hpp"
+#include "engine/geometry/debug_draw.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 #include "engine/math/types.hpp"
@@ -133,7 +133,7 @@ class Shape {
   /// Kind and sizes in a few words: "sphere, radius 0.5 m".
   virtual std::string words() const = 0;
   /// The lines that show the shape, own frame.
-  virtual void outline(DebugDraw& out, const Eigen::Vector4f& colour) const = 0;
+  virtual void outline(DebugDraw& out, const Vec4f& colour) const = 0;
   virtual ShapeDrawing drawing() const { return {}; }
   /// What is drawn where drawing() says `surface`.
   virtual DrawnSurface drawn_surface() const { return {}; }

@@ -12,15 +12,6 @@ namespace tumble {
 
 using Bytes = std::vector<std::byte>;
 
-/// A fixed-size Eigen array: contiguous scalars without padding.
-template <class T>
-concept FixedEigen = requires(T v) {
-  typename T::Scalar;
-  v.data();
-  requires T::SizeAtCompileTime >
-  0;
-};
-
 /// Appends values to a byte string; the counterpart of ByteReader. Scalars are stored in the
 /// machine's (little-endian) order, sizes as 64-bit counts, sections as name, version and length.
 class ByteWriter {
@@ -28,12 +19,8 @@ class ByteWriter {
   /// Appends a trivially copyable value. Types with padding bytes must be written by member.
   template <class T>
   void value(const T& v) {
-    if constexpr (FixedEigen<T>) {
-      raw(v.data(), sizeof(typename T::Scalar) * T::SizeAtCompileTime);
-    } else {
-      static_assert(std::is_trivially_copyable_v<T>);
-      raw(&v, sizeof v);
-    }
+    static_assert(std::is_trivially_copyable_v<T>);
+    raw(&v, sizeof v);
   }
   void raw(const void* data, size_t size);
   void text(std::string_view s);
@@ -65,12 +52,8 @@ class ByteReader {
 
   template <class T>
   void value(T& v) {
-    if constexpr (FixedEigen<T>) {
-      raw(v.data(), sizeof(typename T::Scalar) * T::SizeAtCompileTime);
-    } else {
-      static_assert(std::is_trivially_copyable_v<T>);
-      raw(&v, sizeof v);
-    }
+    static_assert(std::is_trivially_copyable_v<T>);
+    raw(&v, sizeof v);
   }
   template <class T>
   T get() {

@@ -26,6 +26,4 @@
 #include <variant>
 #include <vector>
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <fmt/format.h>

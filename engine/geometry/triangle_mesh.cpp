@@ -80,7 +80,7 @@ TriangleMesh transformed(const TriangleMesh& mesh, const Pose& pose) {
 
 TriangleMesh scaled(const TriangleMesh& mesh, const Vec3& scale) {
   TriangleMesh out = mesh;
-  for (Vec3& v : out.vertices) v = v.cwiseProduct(scale).eval();
+  for (Vec3& v : out.vertices) v = v.cwiseProduct(scale);
   const int negative = (scale.x() < 0) + (scale.y() < 0) + (scale.z() < 0);
   if (negative % 2 == 1) flip(out);
   return out;

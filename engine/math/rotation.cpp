@@ -7,9 +7,7 @@
 namespace tumble {
 
 Mat3 skew(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
+  return {0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0};
 }
 
 Quat axis_angle(const Vec3& axis, double angle) {

@@ -1,17 +1,23 @@
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include "engine/math/array3.hpp"
+#include "engine/math/matrix3.hpp"
+#include "engine/math/quaternion.hpp"
+#include "engine/math/vector.hpp"
+
+#include <limits>
 
 namespace tumble {
 
-using Vec2 = Eigen::Vector2d;
-using Vec3 = Eigen::Vector3d;
-using Vec4 = Eigen::Vector4d;
-using Mat3 = Eigen::Matrix3d;
-using Vec3f = Eigen::Vector3f;
-using Vec4f = Eigen::Vector4f;
+using Vec2 = Vector2<double>;
+using Vec3 = Vector3<double>;
+using Vec4 = Vector4<double>;
+using Mat3 = Matrix3<double>;
+using Vec2f = Vector2<float>;
+using Vec3f = Vector3<float>;
+using Vec4f = Vector4<float>;
+using Mat3f = Matrix3<float>;
 /// Rotation from body to world axes, unit length. Constructor order is (w, x, y, z).
-using Quat = Eigen::Quaterniond;
+using Quat = Quaternion<double>;
 
 /// A rigid frame in world axes: x_world = x + R(q) x_body.
 struct Pose {
@@ -19,18 +25,14 @@ struct Pose {
   Quat q = Quat::Identity();  ///< orientation, unit quaternion
 
   /// Maps a point of the body frame to the world.
-  Vec3 point(const Vec3& p_body) const { return x + q._transformVector(p_body); }
-  Vec3 direction(const Vec3& d_body) const { return q._transformVector(d_body); }
+  Vec3 point(const Vec3& p_body) const { return x + q * p_body; }
+  Vec3 direction(const Vec3& d_body) const { return q * d_body; }
   /// Maps a world point to the body frame.
-  Vec3 inverse_point(const Vec3& p_world) const {
-    return q.conjugate()._transformVector(p_world - x);
-  }
-  Vec3 inverse_direction(const Vec3& d_world) const {
-    return q.conjugate()._transformVector(d_world);
-  }
+  Vec3 inverse_point(const Vec3& p_world) const { return q.conjugate() * (p_world - x); }
+  Vec3 inverse_direction(const Vec3& d_world) const { return q.conjugate() * d_world; }
   /// The pose of a child frame given relative to this one.
   Pose operator*(const Pose& child) const { return {point(child.x), q * child.q}; }
-  Pose inverse() const { return {q.conjugate()._transformVector(-x), q.conjugate()}; }
+  Pose inverse() const { return {q.conjugate() * (-x), q.conjugate()}; }
 };
 
 /// Axis-aligned box; empty while min > max.

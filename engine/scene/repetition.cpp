@@ -64,7 +64,7 @@ struct CopyMaker {
     const Vec3 arm = r.axis == RingAxis::x ? Vec3::UnitY() : Vec3::UnitX();
     for (int i = 0; i < r.count; ++i) {
       const Quat turn = axis_angle(axis, to_radians(r.start_deg + r.arc_deg * double(i) / steps));
-      frames.push_back({turn._transformVector(r.radius * arm), r.turn ? turn : Quat::Identity()});
+      frames.push_back({turn * (r.radius * arm), r.turn ? turn : Quat::Identity()});
     }
     return {};
   }

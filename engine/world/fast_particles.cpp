@@ -143,10 +143,9 @@ class FastExchange {
                                                             s_.settings.realtime.sleep_speed);
     if (gives_way && b.asleep) wake(b);
     PointImpact impact;
-    Mat3 frame;
     Vec3 t1, t2;
     tangent_frame(n, t1, t2);
-    frame << n, t1, t2;
+    const Mat3 frame = Mat3::from_columns(n, t1, t2);
     impact.mobility = frame.transpose() * mobility(b, x, mass, gives_way) * frame;
     impact.velocity = frame.transpose() * slip;
     impact.friction = material.friction;

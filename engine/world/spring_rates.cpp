@@ -49,7 +49,7 @@ class SpringRates {
   Node node_of(const Anchor& a) const {
     const RigidBody* body = pulled_body(a, context_);
     if (!body || !body->dynamic()) return {};
-    return {body, mobility(a, context_).cwiseAbs().rowwise().sum().maxCoeff()};
+    return {body, (mobility(a, context_).cwiseAbs() * Vec3::Ones()).maxCoeff()};
   }
   /// A spring between two ends: the row of either has one entry for each that moves.
   void add(const Node& a, const Node& b, double stiffness, double damping) {

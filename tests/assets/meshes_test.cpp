@@ -3,6 +3,7 @@
 #include "assets/generate/audit.hpp"
 #include "assets/generate/catalogue.hpp"
 #include "assets/generate/makers.hpp"
+#include "engine/math/rotation.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -83,7 +84,7 @@ Mesh together(Mesh first, const Mesh& second, const Pose& pose) {
 }
 
 Pose turned(const Vec3& x, double degrees, const Vec3& axis) {
-  return {x, Quat(Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180, axis))};
+  return {x, axis_angle(axis, degrees * 3.14159265358979323846 / 180)};
 }
 
 /// True when the mesh has a vertex within 2 um of the point.

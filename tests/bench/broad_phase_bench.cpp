@@ -5,6 +5,7 @@
 // equal boxes with as many pairs.
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/random.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/det/det.hpp"
 #include "tests/bench/contest.hpp"
 
@@ -54,7 +55,7 @@ class FclTree {
  public:
   FclTree(const FlyingBoxes& boxes, bool reinsert) : reinsert_(reinsert) {
     for (const Vec3& h : boxes.half) {
-      const auto shape = std::make_shared<fcl::Boxd>(fcl::Vector3d(2 * h));
+      const auto shape = std::make_shared<fcl::Boxd>(fcl::Vector3d(2 * dense(h)));
       objects_.push_back(std::make_unique<fcl::CollisionObjectd>(shape));
     }
     place(boxes);
@@ -79,7 +80,7 @@ class FclTree {
  private:
   void place(const FlyingBoxes& boxes) {
     for (size_t i = 0; i < objects_.size(); ++i) {
-      objects_[i]->setTranslation(boxes.centre[i]);
+      objects_[i]->setTranslation(dense(boxes.centre[i]));
       objects_[i]->computeAABB();
     }
   }

@@ -5,6 +5,7 @@
 #include "engine/collision/time_of_contact.hpp"
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/bench/contest.hpp"
@@ -60,7 +61,7 @@ struct PeerShape {
 PeerShape peer_of(const Shape& s) {
   const ShapeDef& d = s.def();
   if (s.type() == ShapeType::box)
-    return {std::make_shared<fcl::Box<double>>(fcl::Vector3<double>(2 * d.half_extents))};
+    return {std::make_shared<fcl::Box<double>>(fcl::Vector3<double>(2 * dense(d.half_extents)))};
   if (s.type() == ShapeType::sphere) return {std::make_shared<fcl::Sphere<double>>(d.radius)};
   if (s.type() == ShapeType::capsule)  // along z
     return {std::make_shared<fcl::Capsule<double>>(d.radius, d.height),
@@ -72,8 +73,9 @@ PeerShape peer_of(const Shape& s) {
     faces->push_back(int(p.face(f).size()));
     for (uint32_t v : p.face(f)) faces->push_back(int(v));
   }
-  return {std::make_shared<fcl::Convex<double>>(
-      std::make_shared<const std::vector<Vec3>>(p.vertices), int(p.face_count()), faces)};
+  const auto corners = std::make_shared<std::vector<fcl::Vector3d>>();
+  for (const Vec3& v : p.vertices) corners->push_back(dense(v));
+  return {std::make_shared<fcl::Convex<double>>(corners, int(p.face_count()), faces)};
 }
 
 /// Whether FCL's conservative advancement finds a contact.
@@ -81,8 +83,8 @@ bool meet_by_fcl(const PeerShape& a, const PeerShape& b, const Flight& f) {
   const auto at = [](const Motion& m, double t, const PeerShape& s) {
     const Pose pose = m.pose(t);
     fcl::Transform3<double> out = fcl::Transform3<double>::Identity();
-    out.linear() = (pose.q * s.turn).toRotationMatrix();
-    out.translation() = pose.x;
+    out.linear() = dense((pose.q * s.turn).toRotationMatrix());
+    out.translation() = dense(pose.x);
     return out;
   };
   const fcl::ContinuousCollisionRequest<double> request(1000, contact_tolerance, fcl::CCDM_LINEAR,

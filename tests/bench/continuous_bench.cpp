@@ -1,6 +1,7 @@
 // Continuous vertex-face and edge-edge queries: ours beside FCL's cubic by Newton's method, false
 // answers of both counted against integer arithmetic on the first queries of each family; then our
 // awkward families, mean and worst. Times are of the thread, not of the wall.
+#include "engine/math/dense.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/geometry/continuous_families.hpp"
 #include "tests/geometry/continuous_reference.hpp"
@@ -19,12 +20,12 @@ constexpr int queries = 20000, referred = 2000;
 bool by_fcl(const Query& q) {
   using Intersect = fcl::detail::Intersect<double>;
   double time;
-  Vec3 at;
-  const auto& p = q.p;
-  return q.edges ? Intersect::intersect_EE(p[0].start, p[1].start, p[2].start, p[3].start, p[0].end,
-                                           p[1].end, p[2].end, p[3].end, &time, &at)
-                 : Intersect::intersect_VF(p[1].start, p[2].start, p[3].start, p[0].start, p[1].end,
-                                           p[2].end, p[3].end, p[0].end, &time, &at);
+  fcl::Vector3d at, from[4], to[4];
+  for (size_t k = 0; k < 4; ++k) from[k] = dense(q.p[k].start), to[k] = dense(q.p[k].end);
+  return q.edges ? Intersect::intersect_EE(from[0], from[1], from[2], from[3], to[0], to[1], to[2],
+                                           to[3], &time, &at)
+                 : Intersect::intersect_VF(from[1], from[2], from[3], from[0], to[1], to[2], to[3],
+                                           to[0], &time, &at);
 }
 
 bool in_integers(const Query& q) {

@@ -5,6 +5,7 @@
 #include "engine/collision/shapes/convex_hull.hpp"
 #include "engine/collision/v_clip/v_clip.hpp"
 #include "engine/core/random.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -43,7 +44,8 @@ inline Body body(Random& r, int n) {
   b.shape = *make_shape({.type = ShapeType::convex_hull, .mesh = mesh});
   const auto& p = static_cast<const ConvexHullShape&>(*b.shape).polyhedron();
   b.voronoi = *make_voronoi_polyhedron(p);
-  auto vertices = std::make_shared<std::vector<Vec3>>(p.vertices);
+  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+  for (const Vec3& v : p.vertices) vertices->push_back(dense(v));
   auto faces = std::make_shared<std::vector<int>>();
   for (size_t f = 0; f < p.face_count(); ++f) {
     faces->push_back(int(p.face(f).size()));
@@ -75,8 +77,8 @@ inline GjkResult by_gjk(const Query& q, const GjkOptions& options = {}) {
 inline double fcl_distance(const Query& q, bool signed_distance) {
   const auto transform = [](const Mat3& R, const Vec3& x) {
     fcl::Transform3<double> t = fcl::Transform3<double>::Identity();
-    t.linear() = R;
-    t.translation() = x;
+    t.linear() = dense(R);
+    t.translation() = dense(x);
     return t;
   };
   fcl::DistanceRequest<double> request;

@@ -7,6 +7,7 @@
 #include "engine/collision/shape_near.hpp"
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/math/dense.hpp"
 #include "tests/bench/contest.hpp"
 
 #include <cmath>
@@ -53,8 +54,8 @@ class FclBalls {
       const Vec3 way = h * c.v[i];
       const Vec3 extents = way.cwiseAbs() + Vec3::Constant(2 * c.radius[i]);
       objects_.push_back(
-          std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl::Boxd>(extents)));
-      objects_.back()->setTranslation(c.x[i] + 0.5 * way);
+          std::make_unique<fcl::CollisionObjectd>(std::make_shared<fcl::Boxd>(dense(extents))));
+      objects_.back()->setTranslation(dense(c.x[i] + 0.5 * way));
       objects_.back()->setUserData(reinterpret_cast<void*>(i));
       objects_.back()->computeAABB();
       all_.push_back(objects_.back().get());

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
+#include "engine/math/dense.hpp"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -14,8 +15,8 @@ namespace tumble::peers {
 
 inline fcl::Transform3d transform(const Pose& pose) {
   fcl::Transform3d out = fcl::Transform3d::Identity();
-  out.linear() = pose.q.toRotationMatrix();
-  out.translation() = pose.x;
+  out.linear() = dense(pose.q.toRotationMatrix());
+  out.translation() = dense(pose.x);
   return out;
 }
 
@@ -27,7 +28,9 @@ class FclModel {
     std::vector<fcl::Triangle> triangles;
     for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
     model_->beginModel(int(mesh.triangles.size()), int(mesh.vertices.size()));
-    model_->addSubModel(mesh.vertices, triangles);
+    std::vector<fcl::Vector3d> vertices;
+    for (const Vec3& v : mesh.vertices) vertices.push_back(dense(v));
+    model_->addSubModel(vertices, triangles);
     model_->endModel();
   }
 

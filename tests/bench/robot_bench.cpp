@@ -5,6 +5,7 @@
 // reads it; links that are welded on are part of what they are welded to, and limits, motors and
 // friction of joints are left out. Answers of an evaluation: sum of the hinges' own accelerations
 // [rad/s2], which must agree. Of a step: the height of the last link [m].
+#include "engine/math/dense.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/bench/trees/tree.hpp"
@@ -23,13 +24,13 @@ constexpr const char* atlas =
 /// Adds the mass of a link that is welded on, which stands at `at` in the link's frame.
 void weld_on(TreeLink& link, const Eigen::Isometry3d& at, const MassProperties& m) {
   if (m.mass == 0) return;
-  const auto about = [](double mass, const Vec3& arm) -> Mat3 {
-    return mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  const auto about = [](double mass, const Eigen::Vector3d& arm) -> Eigen::Matrix3d {
+    return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   };
-  const Vec3 centre = at * m.centre;
-  const Mat3 own = at.linear() * m.inertia * at.linear().transpose();
+  const Eigen::Vector3d centre = at * Eigen::Vector3d(dense(m.centre));
+  const Eigen::Matrix3d own = at.linear() * dense(m.inertia) * at.linear().transpose();
   const double mass = link.mass + m.mass;
-  const Vec3 common = (link.mass * link.centre + m.mass * centre) / mass;
+  const Eigen::Vector3d common = (link.mass * link.centre + m.mass * centre) / mass;
   link.inertia += about(link.mass, link.centre - common) + own + about(m.mass, centre - common);
   link.centre = common;
   link.mass = mass;
@@ -47,7 +48,9 @@ TreeScene read_robot(const std::string& file) {
   };
   std::vector<Part> parts;
   for (const RobotLink& l : model.links) {
-    const Eigen::Isometry3d in_parent = Eigen::Translation3d(l.in_parent.x) * l.in_parent.q;
+    const Quat& q = l.in_parent.q;
+    const Eigen::Isometry3d in_parent =
+        Eigen::Translation3d(dense(l.in_parent.x)) * Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z());
     const bool root = l.parent == RobotLink::world;
     const Part before = root ? Part{-1, Eigen::Isometry3d::Identity()} : parts[l.parent];
     if (!root && l.joints.empty()) {
@@ -61,7 +64,7 @@ TreeScene read_robot(const std::string& file) {
       if (!root) {
         if (l.joints.size() != 1 || !l.joints[0].anchor.isZero(0))
           throw std::runtime_error(l.name + ": only plain hinges are compared");
-        link.axis = l.joints[0].axis.normalized();
+        link.axis = dense(l.joints[0].axis).normalized();
         link.angle = 0.4 * std::sin(1.7 * number);
         link.rate = 0.5 * std::cos(2.3 * number);
       }

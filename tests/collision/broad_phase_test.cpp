@@ -3,7 +3,7 @@
 // error.
 #include "engine/collision/broad_phase.hpp"
 
-#include "engine/core/debug_draw.hpp"
+#include "engine/geometry/debug_draw.hpp"
 #include "tests/collision/support.hpp"
 
 #include <algorithm>
@@ -399,15 +399,13 @@ TEST_CASE("sleeping bounds cost the tree no comparisons") {
 namespace {
 
 struct DrawnBoxes final : DebugDraw {
-  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector4f&) override {
+  void line(const Vec3& a, const Vec3& b, const Vec4f&) override {
     ++lines;
     all.include(a);
     all.include(b);
   }
-  void point(const Eigen::Vector3d&, const Eigen::Vector4f&, float) override { FAIL("no points"); }
-  void text(const Eigen::Vector3d&, const Eigen::Vector4f&, std::string_view) override {
-    FAIL("no text");
-  }
+  void point(const Vec3&, const Vec4f&, float) override { FAIL("no points"); }
+  void text(const Vec3&, const Vec4f&, std::string_view) override { FAIL("no text"); }
   int lines = 0;
   Aabb all;
 };

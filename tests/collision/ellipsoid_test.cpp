@@ -50,7 +50,7 @@ Vec3 draw_point(Random& r, const Vec3& axes, int family) {
       return p;
     }
     default:
-      return r.below(10) ? Vec3(random_direction(r).cwiseProduct(axes)) : Vec3(Vec3::Zero());
+      return r.below(10) ? random_direction(r).cwiseProduct(axes) : Vec3::Zero();
   }
 }
 

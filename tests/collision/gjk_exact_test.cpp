@@ -206,7 +206,7 @@ TEST_CASE("spheres, capsules and cylinders have the closed form") {
   Random r(95);
   for (int i = 0; i < cases(2000); ++i) {
     const Quat q = random_rotation(r);
-    const Vec3 up = q._transformVector(Vec3::UnitY()), side = q._transformVector(Vec3::UnitX());
+    const Vec3 up = q * Vec3::UnitY(), side = q * Vec3::UnitX();
     const double ra = r.uniform(0.1, 1), rb = r.uniform(0.1, 1), ha = r.uniform(0.1, 2),
                  hb = r.uniform(0.1, 2);
     const double gap = i % 2 ? r.uniform(0, 2) : std::pow(10.0, -r.uniform(1, 9));
@@ -226,7 +226,7 @@ TEST_CASE("spheres, capsules and cylinders have the closed form") {
     // cylinders: cap over cap, side by side, and crossed with the lines' nearest points inside
     close(distance(ca, q, cb, q, up * (0.5 * (ha + hb) + gap) + side * r.uniform(0, ra)), gap);
     close(distance(ca, q, cb, q, side * (ra + rb + gap) + up * r.uniform(-0.5, 0.5) * ha), gap);
-    const Vec3 across = q._transformVector(Vec3::UnitZ());
+    const Vec3 across = q * Vec3::UnitZ();
     const Quat turned = axis_angle(side, r.uniform(0.3, 1.5)) * q;
     const Vec3 along = up * r.uniform(-0.2, 0.2) * ha;
     close(distance(ca, q, cb, turned, side * (ra + rb + gap) + along), gap);

@@ -145,7 +145,7 @@ TEST_CASE("EPA where things touch, coincide or are flat") {
     const Quat q = random_rotation(r);
     const Pose pa{Vec3::Zero(), q};
     for (double depth : {0.0, 1e-13, 1e-10, 1e-6, 0.05}) {
-      const Pose pb{q._transformVector(Vec3(0.1, 0.8 - depth, 0.05)), q};
+      const Pose pb{q * (Vec3(0.1, 0.8 - depth, 0.05)), q};
       const PlacedCore A = place(a, pa), B = place(b, pb);
       const GjkResult g = gjk(A, B);
       if (g.status != GjkStatus::intersecting) {
@@ -155,13 +155,13 @@ TEST_CASE("EPA where things touch, coincide or are flat") {
       const EpaResult e = epa(A, B, g.simplex);
       CHECK(std::abs(e.depth - depth) < 1e-9);
       CHECK(e.normal.allFinite());
-      if (depth > 1e-9) CHECK((e.normal - q._transformVector(Vec3::UnitY())).norm() < 1e-5);
+      if (depth > 1e-9) CHECK((e.normal - q * Vec3::UnitY()).norm() < 1e-5);
     }
     // coincident
     const PlacedCore A = place(a, pa);
     const EpaResult e = epa(A, A, gjk(A, A).simplex);
     CHECK(e.depth == doctest::Approx(1.0));
-    CHECK(std::abs(std::abs(e.normal.dot(q._transformVector(Vec3::UnitY()))) - 1) < 1e-6);
+    CHECK(std::abs(std::abs(e.normal.dot(q * Vec3::UnitY())) - 1) < 1e-6);
   }
 }
 

@@ -28,11 +28,11 @@ void for_listed(Random& r, int count, ShapeFamily family, const F& f) {
 class Segments final : public DebugDraw {
  public:
   std::vector<Vec3> points;
-  void line(const Vec3& a, const Vec3& b, const Eigen::Vector4f&) override {
+  void line(const Vec3& a, const Vec3& b, const Vec4f&) override {
     points.push_back(a), points.push_back(b);
   }
-  void point(const Vec3&, const Eigen::Vector4f&, float) override {}
-  void text(const Vec3&, const Eigen::Vector4f&, std::string_view) override {}
+  void point(const Vec3&, const Vec4f&, float) override {}
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 };
 
 /// Mass, centre and inertia of what is round about y by 4,000 discs, whose radii are found on the
@@ -292,7 +292,7 @@ TEST_CASE("listed shapes: outlines are on the surface, drawn surfaces are closed
   Random r(607);
   for_listed(r, cases(10), ShapeFamily::convex, [&](const Shape& s) {
     Segments outline;
-    s.outline(outline, Eigen::Vector4f::Ones());
+    s.outline(outline, Vec4f::Ones());
     REQUIRE(outline.points.size() >= 8);
     for (const Vec3& p : outline.points) CHECK(std::fabs(level(s.def(), p)) < 1e-9);
     if (s.drawing().kind != ShapeDrawing::Kind::surface) return;

@@ -8,7 +8,7 @@
 namespace tumble::test {
 
 using Real = long double;
-using Real3 = Eigen::Matrix<Real, 3, 1>;
+using Real3 = Vector3<Real>;
 
 struct ReferenceDistance {
   Real distance = 0;  ///< of the surfaces; 0 when they cross or the solids overlap
@@ -112,7 +112,7 @@ class ReferencePair {
 
   void place(size_t k, const VoronoiPolyhedron& m, const Pose& pose, const Vec3& origin) {
     model_[k] = &m;
-    const Eigen::Matrix<Real, 3, 3> R = pose.q.cast<Real>().normalized().toRotationMatrix();
+    const Matrix3<Real> R = pose.q.cast<Real>().normalized().toRotationMatrix();
     const Real3 x = wide(pose.x) - wide(origin);
     for (const Vec3& v : m.vertices) vertices_[k].push_back(x + R * wide(v));
     for (const Vec3& v : {m.centre}) centre_[k] = x + R * wide(v);

@@ -2,6 +2,7 @@
 // (finite, in the interval, within the tolerance), and the methods against each other.
 #include "engine/collision/time_of_contact.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/collision/time_of_contact_answers.hpp"
 #include "tests/collision/time_of_contact_reference.hpp"
 #include "tests/support/scale.hpp"
@@ -215,7 +216,7 @@ TEST_CASE("a ball on a lever of 100 km: few steps, as only its own motion counts
                           {0, spin * lever + r.uniform(-6, 2), 0}, {0, 0, -spin}, 0.1);
     m.offset.x = {lever, 0, 0};
     // The bar lies along the axis of turning: it stays level.
-    if (i % 2) m.offset.q = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()));
+    if (i % 2) m.offset.q = axis_angle(Vec3::UnitX(), std::numbers::pi / 2);
     const bool is_bar = i % 2;
     const double low = is_bar ? 0.05 : radius;
     const auto height = [&](long double t) {

@@ -7,8 +7,8 @@
 /// Where moving shapes are, in extended precision and by other formulas than the engine's.
 namespace tumble::test {
 
-using LongVec = Eigen::Matrix<long double, 3, 1>;
-using LongMat = Eigen::Matrix<long double, 3, 3>;
+using LongVec = Vector3<long double>;
+using LongMat = Matrix3<long double>;
 
 struct LongPose {
   LongVec x;
@@ -17,10 +17,9 @@ struct LongPose {
 
 inline LongMat long_matrix(const Quat& q) {
   const long double w = q.w(), x = q.x(), y = q.y(), z = q.z(), n = w * w + x * x + y * y + z * z;
-  LongMat R;
-  R << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z),
-      w * w - x * x + y * y - z * z, 2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x),
-      w * w - x * x - y * y + z * z;
+  const LongMat R(w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),
+                  2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),
+                  2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z);
   return R / n;
 }
 
@@ -32,8 +31,7 @@ inline LongPose long_pose(const Motion& m, long double t) {
   LongMat turn = LongMat::Identity();
   if (spin > 0) {
     const LongVec u = omega / spin;
-    LongMat k;
-    k << 0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0;
+    const LongMat k(0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0);
     turn += sinl(spin * h) * k + (1 - cosl(spin * h)) * (k * k);
   }
   const LongMat carrier = turn * long_matrix(m.start.q);

@@ -3,6 +3,8 @@
 // the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, and
 // the mobility of the mechanisms (Bennett 1903, Bricard 1897).
 #include "engine/core/random.hpp"
+#include "engine/dynamics/rows/delassus.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/support/dense.hpp"
@@ -50,8 +52,9 @@ struct Jointed : BodyList {
     const auto n = Eigen::Index(6 * blocks.size());
     inverse_mass = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n / 6; ++i) {
-      inverse_mass.block<3, 3>(6 * i, 6 * i) = blocks[size_t(i)].inverse_mass * Mat3::Identity();
-      inverse_mass.block<3, 3>(6 * i + 3, 6 * i + 3) = blocks[size_t(i)].inverse_inertia;
+      inverse_mass.block<3, 3>(6 * i, 6 * i) =
+          blocks[size_t(i)].inverse_mass * Eigen::Matrix3d::Identity();
+      inverse_mass.block<3, 3>(6 * i + 3, 6 * i + 3) = dense(blocks[size_t(i)].inverse_inertia);
     }
   }
   Eigen::MatrixXd matrix(std::span<const Row> rows) const {
@@ -61,16 +64,16 @@ struct Jointed : BodyList {
       for (const RowSide* s : {&rows[r].a, &rows[r].b})
         if (s->block != no_block) {
           const auto at = Eigen::Index(6 * s->block);
-          out.block<1, 3>(Eigen::Index(r), at) += s->linear.transpose();
-          out.block<1, 3>(Eigen::Index(r), at + 3) += s->angular.transpose();
+          out.block<1, 3>(Eigen::Index(r), at) += dense(s->linear).transpose();
+          out.block<1, 3>(Eigen::Index(r), at + 3) += dense(s->angular).transpose();
         }
     return out;
   }
   static Eigen::VectorXd vector(std::span<const DofBlock> blocks) {
     Eigen::VectorXd out(6 * Eigen::Index(blocks.size()));
     for (size_t i = 0; i < blocks.size(); ++i) {
-      out.segment<3>(6 * Eigen::Index(i)) = blocks[i].v;
-      out.segment<3>(6 * Eigen::Index(i) + 3) = blocks[i].omega;
+      out.segment<3>(6 * Eigen::Index(i)) = dense(blocks[i].v);
+      out.segment<3>(6 * Eigen::Index(i) + 3) = dense(blocks[i].omega);
     }
     return out;
   }
@@ -256,9 +259,9 @@ TEST_CASE("redundant joints: as many rows depend on others as mobility says") {
         twist{alpha, beta, alpha, beta};
     std::array<Pose, 5> frames;
     for (size_t i = 0; i < 4; ++i) {
-      const Quat turned = frames[i].q * Quat(Eigen::AngleAxisd(turn[i], Vec3::UnitZ()));
+      const Quat turned = frames[i].q * axis_angle(Vec3::UnitZ(), turn[i]);
       frames[i + 1].x = frames[i].x + turned * Vec3(length[i], 0, 0);
-      frames[i + 1].q = turned * Quat(Eigen::AngleAxisd(twist[i], Vec3::UnitX()));
+      frames[i + 1].q = turned * axis_angle(Vec3::UnitX(), twist[i]);
     }
     REQUIRE((frames[4].x - frames[0].x).norm() < 1e-12);
     Jointed w;

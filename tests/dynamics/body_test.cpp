@@ -258,8 +258,7 @@ TEST_CASE("a body whose mass, tensor and centre are given needs no shape") {
   d.drawn.push_back(drawn);
   const Result<RigidBody> made = make_body(d);
   REQUIRE_MESSAGE(made.ok(), refusal(d));
-  Mat3 tensor;
-  tensor << 2, 0.1, -0.2, 0.1, 3, 0.3, -0.2, 0.3, 4;
+  const Mat3 tensor(2, 0.1, -0.2, 0.1, 3, 0.3, -0.2, 0.3, 4);
   CHECK(made->inertia_body == tensor);
   CHECK((made->pose.x - d.pose.point({1, 0, -1})).norm() < 1e-15);
   CHECK(made->shapes.empty());

@@ -173,7 +173,7 @@ TEST_CASE("a belt carries a box up to its speed, sliding for v / (mu g)") {
     belt.type = BodyType::fixed;
     belt.shapes[0].material.surface_velocity = {2, 0, 0};
     if (turned) belt.pose.q = axis_angle(Vec3::UnitY(), 0.7);
-    const Vec3 along = belt.pose.q._transformVector(Vec3::UnitX());
+    const Vec3 along = belt.pose.q * Vec3::UnitX();
     w.add(belt);
     const uint32_t i = w.add(body(box(0.2, 0.2, 0.2), {0, 0.2, 0}, 0.5));
     w.run(0.2);

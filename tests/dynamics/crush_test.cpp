@@ -4,6 +4,7 @@
 #include "engine/dynamics/event/impulses/crush.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 
 #include <algorithm>
@@ -150,7 +151,7 @@ TEST_CASE("event: what is squeezed out of a wedge goes on, at the speed of kinem
   w.add(plate);
   const double half = std::sqrt(0.5);
   BodyDef slope = body(box(0.5, 5, 5), Vec3(half, -half, 0) * 0.8, 0);
-  slope.pose.q = Quat(Eigen::AngleAxisd(-pi / 4, Vec3::UnitZ()));
+  slope.pose.q = axis_angle(Vec3::UnitZ(), -pi / 4);
   slope.type = BodyType::fixed;
   w.add(slope);
   const uint32_t i = w.add(body(sphere(0.3), {0, 0, 0}, 0));

@@ -96,7 +96,13 @@ TEST_CASE("rate and bias of every pair of elements are the derivatives of its ga
 
 namespace {
 
-using Precise3 = Eigen::Matrix<long double, 3, 1>;
+using Precise3 = Vector3<long double>;
+
+/// Rodrigues' formula about a unit axis.
+Matrix3<long double> precise_turn(const Precise3& u, long double angle) {
+  const Matrix3<long double> k(0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0);
+  return Matrix3<long double>::Identity() + sinl(angle) * k + (1 - cosl(angle)) * (k * k);
+}
 
 /// A rim, edge or corner at a moment, in extended precision.
 struct PreciseCurve {
@@ -107,12 +113,10 @@ struct PreciseCurve {
   /// The motion without acceleration: the rotation vector grows evenly.
   PreciseCurve(const SurfaceElement& e, const BodyMotion& m, long double t)
       : kind(e.kind), radius(e.radius) {
-    const Eigen::Quaternion<long double> q0 = m.pose.q.cast<long double>().normalized();
+    const Quaternion<long double> q0 = m.pose.q.cast<long double>().normalized();
     const Precise3 w = m.omega.cast<long double>();
     const long double angle = w.norm() * t;
-    const Eigen::Quaternion<long double> q(
-        Eigen::AngleAxis<long double>(angle, w.normalized()).toRotationMatrix() *
-        q0.toRotationMatrix());
+    const Quaternion<long double> q(precise_turn(w.normalized(), angle) * q0.toRotationMatrix());
     origin = m.pose.x.cast<long double>() + t * m.v.cast<long double>() +
              q * e.origin.cast<long double>();
     const Precise3 d = e.direction.cast<long double>().normalized();
@@ -428,7 +432,7 @@ TEST_CASE("ellipsoids against edges, rims, points and planes: the least distance
     const BodyMotion mb{
         {draw(r, 1) + Vec3(1.5, 0, 0), draw_rotation(r)}, Vec3::Zero(), Vec3(0, 0.1, 0)};
     const Mat3 A = ma.pose.q.toRotationMatrix() * a.semi_axes;
-    const Vec3 axes = A.colwise().norm().transpose();
+    const Vec3 axes(A.col(0).norm(), A.col(1).norm(), A.col(2).norm());
     const Mat3 R = A * axes.cwiseInverse().asDiagonal();
     const Vec3 centre = ma.pose.point(a.origin);
     const auto distance = [&](const Vec3& x) {

@@ -7,6 +7,7 @@
 #include "engine/dynamics/particles/sink.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/math/rotation.hpp"
 
 #include <cmath>
 #include <vector>
@@ -369,7 +370,7 @@ TEST_CASE("sinks hold what is in them") {
   sink.region = BoxSink{{2, 4, 6}};
   CHECK(holds(sink, {0.9, 3.9, -2.9}));
   CHECK(!holds(sink, {1.1, 2, 0}));
-  sink.pose.q = Quat(Eigen::AngleAxisd(det::pi / 2, Vec3::UnitY()));
+  sink.pose.q = axis_angle(Vec3::UnitY(), det::pi / 2);
   CHECK(holds(sink, {2.9, 2, 0.9}));
   sink.region = SphereSink{1};
   sink.outside = true;

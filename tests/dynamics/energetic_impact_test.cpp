@@ -16,8 +16,7 @@ namespace {
 
 /// Mobility of a body struck at `arm` from its centre, in the frame (normal x, tangents y, z).
 Mat3 mobility_of(double mass, const Mat3& inertia, const Vec3& arm) {
-  Mat3 cross;
-  cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  const Mat3 cross(0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0);
   return Mat3::Identity() / mass - cross * inertia.inverse() * cross;
 }
 

@@ -1,6 +1,7 @@
 // Hard limits, motors that hold a rate, dry friction and armature of joints under the event
 // stepper. References: closed forms of one degree of freedom (bounces, ramps, brakes, statics), the
 // energy of the physical pendulum, and elastic collisions of point masses.
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/dynamics/joint_world.hpp"
 
@@ -96,7 +97,7 @@ struct EventPendulum : DrivenWorld {
     add(rod);
     inertia = bodies[0].inertia_body(2, 2) + mass * arm * arm;
     join(JointKind::revolute, no_body, 0, {});
-    bodies[0].pose.q = Quat(Eigen::AngleAxisd(start, Vec3::UnitZ()));
+    bodies[0].pose.q = axis_angle(Vec3::UnitZ(), start);
     bodies[0].pose.x = bodies[0].pose.q * Vec3(0, -arm, 0);
     drive(0, 0, d);
   }

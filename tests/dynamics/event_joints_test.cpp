@@ -231,12 +231,11 @@ TEST_CASE("a door bounces off its stop as its hinge lets it") {
   BodyDef post = body(sphere(0.1), {0.8, 1, 0.5}, 0, 0.6);
   post.type = BodyType::fixed;
   w.add(post);
-  Mat3 up;
-  up << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  const Mat3 up(0, 1, 0, 0, 0, 1, 1, 0, 0);
   w.join(JointKind::revolute, no_body, 0, {Vec3::Zero(), Quat(up)});
   w.run(1);
   CHECK(w.bodies[0].omega.y() == doctest::Approx(1.2).epsilon(1e-9));
-  CHECK(w.bodies[0].omega.head<1>().norm() + std::fabs(w.bodies[0].omega.z()) < 1e-12);
+  CHECK(std::fabs(w.bodies[0].omega.x()) + std::fabs(w.bodies[0].omega.z()) < 1e-12);
   CHECK(w.joint_error() < 1e-12);
 }
 

@@ -1,7 +1,7 @@
 // References: Couette's flow in closed form; the front of a collapsing column in the experiments of
 // Martin and Moyce (1952); the lid-driven cavity of Ghia, Ghia and Shin (1982).
 #include "tests/dynamics/fluid_tank.hpp"
-#include "tests/support/dense.hpp"
+#include "tests/support/dense3.hpp"
 #include "tests/support/scale.hpp"
 
 #include <algorithm>

@@ -34,7 +34,7 @@ struct Governor : EventWorld {
     lump({0, -0.5, 0}, Quat::Identity(), 1, Vec3::Constant(upright));
     lump({0, -s.way, 0}, Quat::Identity(), sleeve_mass, Vec3::Constant(upright));
     for (const double side : {1.0, -1.0}) {
-      const Quat q(Eigen::AngleAxisd(side * s.angle, Vec3::UnitZ()));
+      const Quat q(axis_angle(Vec3::UnitZ(), side * s.angle));
       lump(q * Vec3(0, -centre, 0), q, arm_mass, {across, along, across});
     }
     for (RigidBody& b : bodies) {

@@ -357,7 +357,7 @@ struct StruckColumn {
     for (uint32_t i = 0; i < n; ++i) {
       DofBlock b;
       b.inverse_mass = 1 / r.uniform(0.5, 2);
-      b.inverse_inertia = b.inverse_mass * Vec3(11.5, 6, 11.5).asDiagonal();
+      b.inverse_inertia = (b.inverse_mass * Vec3(11.5, 6, 11.5)).asDiagonal();
       blocks.push_back(b);
       for (const double x : {-0.5, 0.5})
         for (const double z : {-0.5, 0.5}) {

@@ -4,10 +4,13 @@
 #include "engine/dynamics/event/impulses/jam.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/support/scale.hpp"
 
 #include <cmath>
+
+#include <Eigen/LU>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -179,7 +182,7 @@ TEST_CASE("event: a rod that no force can hold is stopped by an impulse, and fal
   EventWorld w(10000);
   w.fixed(box(50, 1, 50), {0, -1, 0}, 2.0);
   BodyDef def = body(capsule(0.01, 2), {0, 0.01 + std::sqrt(0.75), 0}, 2.0);
-  def.pose.q = Quat(Eigen::AngleAxisd(-3.14159265358979323846 / 6, Vec3::UnitZ()));
+  def.pose.q = axis_angle(Vec3::UnitZ(), -3.14159265358979323846 / 6);
   def.velocity = {-1, 0, 0};
   const uint32_t rod = w.add(def);
   const Vec3 arm(-0.5, -w.bodies[rod].pose.x.y(), 0);
@@ -205,7 +208,7 @@ TEST_CASE("event: a rod that no force can hold is stopped by an impulse, and fal
 namespace {
 
 Quat leaning(double angle) {
-  return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+  return axis_angle(Vec3::UnitZ(), angle);
 }
 
 /// Two rods that hang together at their upper ends and slide on their lower ones.

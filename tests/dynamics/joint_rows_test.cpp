@@ -2,6 +2,7 @@
 // motion with constant velocities, in double; resolution about 1e-8 with a step of 1e-6.
 #include "engine/core/random.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/dense.hpp"
 
@@ -190,8 +191,8 @@ TEST_CASE("joints that are kept have no errors and as many independent rows as t
       for (size_t k = 0; k < rows.size(); ++k) {
         CHECK(std::fabs(rows[k].error) < 1e-14);
         const Row& row = rows[k].row;
-        J.row(Eigen::Index(k)) << row.a.linear.transpose(), row.a.angular.transpose(),
-            row.b.linear.transpose(), row.b.angular.transpose();
+        J.row(Eigen::Index(k)) << dense(row.a.linear).transpose(), dense(row.a.angular).transpose(),
+            dense(row.b.linear).transpose(), dense(row.b.angular).transpose();
       }
       if (rows.size() == 0) continue;
       CHECK(singular_values(J).minCoeff() > 0.1);

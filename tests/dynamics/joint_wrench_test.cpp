@@ -4,6 +4,8 @@
 #include "engine/dynamics/joints/joint_wrench.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/dense.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/joint_world.hpp"
 #include "tests/support/dense.hpp"
 
@@ -24,7 +26,7 @@ struct Ring : JointWorld {
     for (uint32_t i = 0; i < bodies_count; ++i) {
       BodyDef d = body(box(0.3, 0.2, 0.1), {double(i), random.uniform(-1, 1), 0});
       d.mass = random.uniform(0.5, 3);
-      d.pose.q = Quat(Eigen::AngleAxisd(random.uniform(0, 3), Vec3(1, 2, 3).normalized()));
+      d.pose.q = axis_angle(Vec3(1, 2, 3).normalized(), random.uniform(0, 3));
       add(d);
     }
     // The last kind is free: nothing is kept, so nothing is shared.
@@ -51,8 +53,8 @@ Eigen::MatrixXd pushes_of(const Articulation& joints, size_t blocks, Eigen::Vect
     sizes[r] = row.b.linear.norm() > 0 ? 1 : 1 / arm;
     for (const RowSide* s : {&row.a, &row.b}) {
       if (s->block == no_block) continue;
-      out.col(r).segment<3>(6 * Eigen::Index(s->block)) += s->linear / sizes[r];
-      out.col(r).segment<3>(6 * Eigen::Index(s->block) + 3) += s->angular / sizes[r];
+      out.col(r).segment<3>(6 * Eigen::Index(s->block)) += dense(s->linear) / sizes[r];
+      out.col(r).segment<3>(6 * Eigen::Index(s->block) + 3) += dense(s->angular) / sizes[r];
     }
   }
   return out;

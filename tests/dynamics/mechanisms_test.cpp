@@ -19,7 +19,7 @@ namespace {
 constexpr double g = 9.81;
 
 Quat turned(double angle) {
-  return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+  return axis_angle(Vec3::UnitZ(), angle);
 }
 
 /// Bodies that are nothing but mass, in planar hinges unless said otherwise.
@@ -164,7 +164,7 @@ struct SpatialSliderCrank : Mechanism, SpatialSliderCrankReference {
     const Vec3 along = (C - B) / rod_length, across = X.cross(along).normalized();
     const uint32_t arm = lump(0.5 * (A + B), 0, crank_mass, {crank_inertia, crank_inertia, 1e-5});
     const uint32_t link = lump(0.5 * (B + C), 0, rod_mass, {rod_spin, rod_inertia, rod_inertia});
-    bodies[link].pose.q = Quat((Mat3() << along, across, along.cross(across)).finished());
+    bodies[link].pose.q = Quat(Mat3::from_columns(along, across, along.cross(across)));
     const uint32_t slider = lump(C, 0, slider_mass, Vec3::Constant(1e-4));
     bodies[arm].omega = {start_rate, 0, 0};
     bodies[arm].v = bodies[arm].omega.cross(0.5 * (B - A));
@@ -177,8 +177,8 @@ struct SpatialSliderCrank : Mechanism, SpatialSliderCrankReference {
     hinge(no_body, arm, A, X);
     join(JointKind::spherical, arm, link, {B, Quat::Identity()});
     join(JointKind::universal, slider, link,
-         {C, Quat((Mat3() << across, X.cross(across), X).finished())});
-    join(JointKind::prismatic, no_body, slider, {C, Quat::FromTwoVectors(Vec3::UnitZ(), X)});
+         {C, Quat(Mat3::from_columns(across, X.cross(across), X))});
+    join(JointKind::prismatic, no_body, slider, {C, rotation_between(Vec3::UnitZ(), X)});
   }
   double crank_angle() const { return 2 * std::atan2(bodies[0].pose.q.x(), bodies[0].pose.q.w()); }
 };

@@ -3,6 +3,7 @@
 // friction the energy never grows.
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/dynamics/piles.hpp"
 
@@ -25,7 +26,7 @@ Vec3 within(Random& random, double x, double y, double z) {
 BodyDef thrown(const ShapeDef& shape, Random& random) {
   BodyDef d = body(shape, Vec3(0, 1, 0) + within(random, 0.1, 0, 0.1));
   const Vec3 axis = within(random, 1, 1, 1).normalized();
-  d.pose.q = Quat(Eigen::AngleAxisd(random.uniform(0, 3), axis));
+  d.pose.q = axis_angle(axis, random.uniform(0, 3));
   d.velocity = Vec3(0, -2, 0) + within(random, 1, 2, 1);
   d.angular_velocity = within(random, 10, 10, 10);
   return d;

@@ -1,6 +1,7 @@
 // Forces at one moment. References: their definitions; for the mouse spring, whose definition is
 // its implicit step, the limit of that step as the tick goes to zero.
 #include "engine/dynamics/forces/force.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
 #include <cmath>
@@ -20,7 +21,7 @@ struct Pulled {
   Pulled() {
     for (int i = 0; i < 2; ++i) {
       BodyDef d = body(box(0.5, 0.2, 0.3), {3.0 * i, 1, -1.0 * i});
-      d.pose.q = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+      d.pose.q = axis_angle(Vec3(1, 2, 3).normalized(), 0.7);
       d.velocity = {1, -2, 0.5 + i};
       d.angular_velocity = {0.3, 1, -2};
       auto made = make_body(d);

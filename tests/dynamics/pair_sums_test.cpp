@@ -37,7 +37,7 @@ Reference all_pairs(const PairLaw& law, const PairSums::Points& points) {
             const Vec3 d = points.x[b] + shift - points.x[a];
             const PairLaw::Value v = law.at(d.squaredNorm());
             const long double w = (long double)(points.weights[a]) * points.weights[b];
-            for (size_t c = 0; c < 3; ++c) f[a][c] -= w * v.push * d[Eigen::Index(c)];
+            for (size_t c = 0; c < 3; ++c) f[a][c] -= w * v.push * d[std::ptrdiff_t(c)];
             energy += w * v.energy / 2;
             virial += w * v.push * d.squaredNorm() / 2;
           }

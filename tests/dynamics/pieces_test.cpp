@@ -6,6 +6,7 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 #include "tests/support/scale.hpp"
 
@@ -20,7 +21,7 @@ using namespace tumble::test;
 
 namespace {
 
-using Long3 = Eigen::Matrix<long double, 3, 1>;
+using Long3 = Vector3<long double>;
 using Corners = std::array<Long3, 3>;
 
 int cases(int count) {
@@ -35,7 +36,8 @@ Vec3 direction(Random& random) {
 }
 
 Quat rotation(Random& random) {
-  return Quat(Eigen::AngleAxisd(random.uniform(0, 3), direction(random)));
+  const Vec3 axis = direction(random);
+  return axis_angle(axis, random.uniform(0, 3));
 }
 
 std::shared_ptr<const Shape> made(const ShapeDef& def) {
@@ -55,7 +57,7 @@ TriangleMesh one_triangle(Random& random, double flatness) {
 
 Corners placed(const TriangleMesh& m, const Pose& at, uint32_t t = 0) {
   Corners c;
-  const Eigen::Quaternion<long double> q = at.q.cast<long double>().normalized();
+  const Quaternion<long double> q = at.q.cast<long double>().normalized();
   for (size_t k = 0; k < 3; ++k)
     c[k] = q * m.corner(t, k).cast<long double>() + at.x.cast<long double>();
   return c;
@@ -191,7 +193,7 @@ TEST_CASE("pieces: an open sheet pushes back what came through, on either side")
   const auto rod = made(capsule(0.01, 0.3));
   for (const double side : {1.0, -1.0}) {
     const Pose at{Vec3(0.1, side * (0.01 - 1e-8), 0.05),
-                  Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()))};
+                  axis_angle(Vec3::UnitZ(), 1.5707963267948966)};
     const NearestPieces n = nearest_pieces(*rod, at, *open, Pose{}, 0.1, nullptr);
     CHECK(n.gap.gap == doctest::Approx(-1e-8).epsilon(1e-4));
     CHECK((n.gap.normal - Vec3(0, -side, 0)).norm() < 1e-9);

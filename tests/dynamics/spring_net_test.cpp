@@ -5,6 +5,7 @@
 #include "engine/dynamics/forces/spring_net.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -56,9 +57,10 @@ SpringNet random_net(Random& random, int nodes, int ties, double stiffness, doub
     SpringNet::Node& n = net.nodes.emplace_back();
     n.mass = random.uniform(0.1, 3);
     n.turns = i % 3 == 0;
-    const Mat3 R = Eigen::AngleAxisd(random.uniform(0, 3), vector(1).normalized()).matrix();
+    const Vec3 axis = vector(1).normalized();
+    const Mat3 R = axis_angle(axis, random.uniform(0, 3)).toRotationMatrix();
     if (n.turns) n.inertia = R * Vec3(0.02, 0.03, 0.04).asDiagonal() * R.transpose();
-    n.omega = n.turns ? vector(3) : Vec3(Vec3::Zero());
+    n.omega = n.turns ? vector(3) : Vec3::Zero();
     n.dv_free = vector(0.2);
     if (n.turns) n.domega_free = vector(0.2);
   }
@@ -84,7 +86,7 @@ SpringNet random_net(Random& random, int nodes, int ties, double stiffness, doub
 /// Jacobian of the velocity of an end.
 Eigen::Matrix<double, 3, 6> jacobian(const SpringNet::End& end) {
   Eigen::Matrix<double, 3, 6> J;
-  J << Mat3::Identity(), -skew(end.arm);
+  J << Eigen::Matrix3d::Identity(), -dense(skew(end.arm));
   return J;
 }
 
@@ -168,9 +170,9 @@ TEST_CASE("a net's pulls solve its equations: they are those of the velocities t
       const Mat3 nn = n * n.transpose();
       const Mat3 K = rest * (nn + std::max(0.0, 1 - t.rest_length / l) * (Mat3::Identity() - nn));
       Eigen::Matrix<double, 6, 1> xa, xb;
-      xa << dv[t.a.node], dw[t.a.node];
-      xb << dv[t.b.node], dw[t.b.node];
-      const Vec3 change = jacobian(t.b) * xb - jacobian(t.a) * xa;
+      xa << dense(dv[t.a.node]), dense(dw[t.a.node]);
+      xb << dense(dv[t.b.node]), dense(dw[t.b.node]);
+      const Vec3 change = small_vector(jacobian(t.b) * xb - jacobian(t.a) * xa);
       const Vec3 force = k * (l - t.rest_length) * n + t.damping * nn * (t.dv + change) +
                          K * (0.5 * net.h * t.dv + net.h * change);
       worst = std::max(worst, (force - pulls[i].force).norm());

@@ -1,5 +1,6 @@
 // Convex bodies of every kind that tumble against each other under the event stepper. References:
 // planes that separate the bodies (overlap_certificate.hpp), conservation of energy.
+#include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
 #include "tests/dynamics/overlap_certificate.hpp"
 #include "tests/dynamics/piles.hpp"
@@ -135,7 +136,7 @@ TEST_CASE("tumbling: coins that wobble, land flat and roll stay on the floor") {
     w.floor(0.4, 0.2);
     const double radius = 0.3, half = 0.02;
     BodyDef d = body(cylinder(radius, 2 * half), {0, 0, 0}, 0.4, 0.2);
-    d.pose.q = Quat(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
+    d.pose.q = axis_angle(Vec3::UnitX(), tilt);
     d.pose.x.y() = radius * std::sin(tilt) + half * std::cos(tilt) + 0.01;
     d.angular_velocity = {0.3, 8, 0};
     w.add(d);

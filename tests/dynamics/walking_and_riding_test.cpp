@@ -12,15 +12,16 @@
 #include <numbers>
 #include <numeric>
 
+#include <Eigen/LU>
+
 using namespace tumble;
 using namespace tumble::test;
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
+using State2 = Eigen::Vector2d;
+using State4 = Eigen::Vector4d;
 using Mat2 = Eigen::Matrix2d;
-using Vec4 = Eigen::Vector4d;
-using Mat4 = Eigen::Matrix4d;
 
 /// A hip of mass 1 on two legs of length 1 whose mass is next to nothing, on a slope; the foot that
 /// stands is a hinge in the world. A leg has its mass in halves at foot and hip, so that it swings
@@ -43,7 +44,7 @@ struct Walker : EventWorld {
   }
   /// The place of a leg's foot in its frame, whose y axis points from foot to hip.
   static Vec3 foot() { return {0, -0.5, 0}; }
-  static Quat leaning(double angle) { return Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())); }
+  static Quat leaning(double angle) { return axis_angle(Vec3::UnitZ(), angle); }
   double angle(uint32_t leg) const {
     const Vec3 up = bodies[leg].pose.q * Vec3::UnitY();
     return std::atan2(-up.x(), up.y());
@@ -52,7 +53,7 @@ struct Walker : EventWorld {
   double open() const { return angle(standing) - angle(swinging); }
 
   /// Right after a step, both feet on the ground, with the angle and rate of the leg that stands.
-  void begin(const Vec2& state) {
+  void begin(const State2& state) {
     const double theta = state[0], rate = state[1];
     const double swing = -theta, swing_rate = rate - (1 - std::cos(2 * theta)) * rate;
     const Vec3 hip(-std::sin(theta), std::cos(theta), 0);
@@ -78,7 +79,7 @@ struct Walker : EventWorld {
   }
   /// One step: until the foot that swings is at the ground in front, where it is caught by a hinge
   /// in place of the other one: the joints' impulses are those of a foot that stays. What is left.
-  Vec2 step_over(const Vec2& state) {
+  State2 step_over(const State2& state) {
     begin(state);
     const double tick = h;
     const auto above = [this] { return 2 * angle(standing) - open(); };
@@ -125,31 +126,31 @@ struct Walker : EventWorld {
 
 /// The derivative of a step by the state that it begins with.
 template <class Step>
-Mat2 derivative(const Step& step, const Vec2& at) {
+Mat2 derivative(const Step& step, const State2& at) {
   Mat2 out;
   for (int i = 0; i < 2; ++i) {
-    const Vec2 aside = 1e-5 * Vec2::Unit(i);
+    const State2 aside = 1e-5 * State2::Unit(i);
     out.col(i) = (step(at + aside) - step(at - aside)) / 2e-5;
   }
   return out;
 }
 
 /// A step by the paper's equations for the angle of the leg that stands and that between the legs.
-Vec2 published_step(const Vec2& state) {
-  const auto change = [](const Vec4& y) {
+State2 published_step(const State2& state) {
+  const auto change = [](const State4& y) {
     const double falls = std::sin(y[0] - Walker::slope);
-    return Vec4(y[1], falls, y[3],
-                falls + (y[1] * y[1] - std::cos(y[0] - Walker::slope)) * std::sin(y[2]));
+    return State4(y[1], falls, y[3],
+                  falls + (y[1] * y[1] - std::cos(y[0] - Walker::slope)) * std::sin(y[2]));
   };
-  const auto moved = [&](const Vec4& y, double h) -> Vec4 {
-    const Vec4 a = change(y), b = change(y + h / 2 * a), c = change(y + h / 2 * b),
-               d = change(y + h * c);
+  const auto moved = [&](const State4& y, double h) -> State4 {
+    const State4 a = change(y), b = change(y + h / 2 * a), c = change(y + h / 2 * b),
+                 d = change(y + h * c);
     return y + h / 6 * (a + 2 * b + 2 * c + d);
   };
-  const auto above = [](const Vec4& y) { return 2 * y[0] - y[2]; };
-  Vec4 y(state[0], state[1], 2 * state[0], (1 - std::cos(2 * state[0])) * state[1]);
+  const auto above = [](const State4& y) { return 2 * y[0] - y[2]; };
+  State4 y(state[0], state[1], 2 * state[0], (1 - std::cos(2 * state[0])) * state[1]);
   double h = 0.005;
-  for (Vec4 next = moved(y, h); !(next[0] < 0 && above(y) > 0 && above(next) <= 0);
+  for (State4 next = moved(y, h); !(next[0] < 0 && above(y) > 0 && above(next) <= 0);
        next = moved(y, h))
     y = next;
   double low = 0;
@@ -197,7 +198,7 @@ struct Bicycle : EventWorld {
     return add(d);
   }
   /// Lean to the right, steering to the left about the axis that points up, and their rates.
-  Vec4 state() const {
+  State4 state() const {
     const RigidBody &a = bodies[frame], &b = bodies[fork];
     const Vec3 across = a.pose.q * Vec3::UnitZ(), axis = a.pose.q * steering_axis();
     const Vec3 fork_across = b.pose.q * Vec3::UnitZ();
@@ -232,7 +233,7 @@ std::vector<std::complex<double>> published_modes(double v) {
   C << 0, 33.86641391492494, -0.85035641456978, 1.68540397397560;
   K0 << -80.95, -2.59951685249872, -2.59951685249872, -0.80329488458618;
   K2 << 0, 76.59734589573222, 0, 2.65431523794604;
-  Mat4 all = Mat4::Zero();
+  Eigen::Matrix4d all = Eigen::Matrix4d::Zero();
   all.topRightCorner<2, 2>().setIdentity();
   all.bottomLeftCorner<2, 2>() = -M.inverse() * (9.81 * K0 + v * v * K2);
   all.bottomRightCorner<2, 2>() = -M.inverse() * (v * C);
@@ -243,15 +244,15 @@ std::vector<std::complex<double>> published_modes(double v) {
 
 TEST_CASE("the simplest walker has the two gaits of its paper, and their eigenvalues") {
   Walker w;
-  const auto step = [&w](const Vec2& state) { return w.step_over(state); };
-  for (const Vec2& gait :
-       {Vec2(.20031090049483, -.19983247291764), Vec2(.19393736960624, -.20386692731962)}) {
+  const auto step = [&w](const State2& state) { return w.step_over(state); };
+  for (const State2& gait :
+       {State2(.20031090049483, -.19983247291764), State2(.19393736960624, -.20386692731962)}) {
     if (only_to_run()) {
       w.begin(gait);
       w.run(0.2);
       continue;
     }
-    Vec2 at = gait + Vec2(1e-4, -1e-4);
+    State2 at = gait + State2(1e-4, -1e-4);
     const Mat2 slope = derivative(step, at) - Mat2::Identity();
     for (int i = 0; i < 4; ++i) at -= slope.inverse() * (step(at) - at);
     CHECK((at - gait).cwiseAbs().maxCoeff() < 1e-6);

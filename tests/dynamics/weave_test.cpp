@@ -174,7 +174,7 @@ TEST_CASE("the system of a mesh and the net without a matrix give the same pulls
       n.meshed = true;
       n.x = vector(1);
       if (n.turns) n.inertia = Vec3(0.02, 0.03, 0.04).asDiagonal();
-      n.omega = n.turns ? vector(3) : Vec3(Vec3::Zero());
+      n.omega = n.turns ? vector(3) : Vec3::Zero();
       n.dv_free = vector(0.2);
       if (n.turns) n.domega_free = vector(0.2);
     }

@@ -147,7 +147,8 @@ TEST_CASE("nearest points of slivers are within 1e-12 of the pair's size of the 
     const Vec3 inside = t[0] + 0.3 * (t[1] - t[0]) + 0.3 * (t[2] - t[0]);
     if (i % 3 == 1) p = inside + reach * draws::direction(r);
     // Above the face, where only the normal says whether it is the nearest feature.
-    if (i % 3 == 2) p = inside + reach * (t[1] - t[0]).cross(t[2] - t[0]).stableNormalized();
+    const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (i % 3 == 2) p = inside + reach * (across / across.stableNorm());
     const TrianglePoint found = closest_on_triangle(p, t[0], t[1], t[2]);
     const Nearest exact = reference(long_vec(p), long_triangle(t));
     faces += found.feature == TriangleFeature::face;

@@ -52,7 +52,7 @@ TEST_CASE("closest point of a triangle satisfies the optimality conditions") {
   for (int i = 0; i < n; ++i) {
     const auto t = any_triangle(random, i);
     const double distance = i % 7 == 0 ? 100 : (i % 7 == 1 ? 1e-7 : 1.5);
-    const Vec3 p = distance * draws::in_box(random, 1) + (i % 7 == 1 ? t[0] : Vec3(Vec3::Zero()));
+    const Vec3 p = distance * draws::in_box(random, 1) + (i % 7 == 1 ? t[0] : Vec3::Zero());
     const TrianglePoint c = closest_on_triangle(p, t[0], t[1], t[2]);
     const double size = 2 + p.norm();
     CHECK(violation(p, c.point, {t[0], t[1], t[2]}) < 1e-12 * size * size);

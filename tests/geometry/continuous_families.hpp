@@ -212,8 +212,8 @@ inline void rescale(Random& r, Query& q) {
   const uint32_t kind = r.below(4);
   if (kind == 0) return;
   const double factor = std::pow(10.0, double(int(r.below(25)) - 12));
-  const Vec3 away = kind == 1 ? std::pow(10.0, double(r.below(8))) * factor * draws::in_box(r, 1)
-                              : Vec3(Vec3::Zero());
+  const Vec3 away =
+      kind == 1 ? std::pow(10.0, double(r.below(8))) * factor * draws::in_box(r, 1) : Vec3::Zero();
   for (MovingPoint& p : q.p) p = {factor * p.start + away, factor * p.end + away};
 }
 

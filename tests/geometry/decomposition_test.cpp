@@ -11,6 +11,7 @@
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/primitive_tests/point_in_object.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 #include "tests/support/convex_pieces.hpp"
 
@@ -152,8 +153,7 @@ TriangleMesh spiky_ball(uint64_t seed, int levels) {
 }
 
 TriangleMesh placed(const TriangleMesh& mesh) {
-  return transformed(mesh,
-                     {Vec3(3, -2, 5), Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))});
+  return transformed(mesh, {Vec3(3, -2, 5), axis_angle(Vec3(1, 2, 3).normalized(), 0.7)});
 }
 
 struct Solid {

@@ -7,6 +7,7 @@
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 #include "tests/geometry/hierarchy_meshes.hpp"
 
@@ -57,8 +58,7 @@ TriangleMesh turned_inside_out(TriangleMesh mesh) {
 
 /// A plate of a hundredth of a cell's thickness.
 TriangleMesh thin_plate() {
-  return at(make_mesh::box({0.5, 0.0001, 0.3}), {0.01, 0.013, 0},
-            Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())));
+  return at(make_mesh::box({0.5, 0.0001, 0.3}), {0.01, 0.013, 0}, axis_angle(Vec3::UnitZ(), 0.3));
 }
 
 std::vector<hard_meshes::Family> solids() {
@@ -68,7 +68,7 @@ std::vector<hard_meshes::Family> solids() {
   out.push_back({"box", share(make_mesh::box({0.5, 0.3, 0.2}))});
   out.push_back({"ball", share(at(ball, {100, 200, -50}))});
   out.push_back({"torus", share(at(make_mesh::torus(0.5, 0.2, 24, 12), Vec3::Zero(),
-                                   Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))))});
+                                   axis_angle(Vec3(1, 2, 3).normalized(), 0.7)))});
   out.push_back({"thin plate", share(thin_plate())});
   out.push_back({"cavity", share(joined(make_mesh::box(Vec3::Constant(0.5)),
                                         turned_inside_out(make_mesh::icosphere(0.3, 1))))});

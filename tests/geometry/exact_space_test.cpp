@@ -90,7 +90,8 @@ TEST_CASE("points where planes meet are on the side of a plane, and in the order
     std::vector<Vec3> corners;
     for (int i = 0; i < 24; ++i) {
       Vec3 p;
-      for (double& x : p) x = step * std::floor(random.uniform(-3, 4) / std::min(1.0, step));
+      for (int k = 0; k < 3; ++k)
+        p[k] = step * std::floor(random.uniform(-3, 4) / std::min(1.0, step));
       corners.push_back(step == 1 ? p : p / 4);
     }
     ExactSpace space(corners);

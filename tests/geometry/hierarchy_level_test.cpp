@@ -27,14 +27,12 @@ double outside(const NodeBound& bound, const Vec3& p) {
 struct LevelRecorder final : DebugDraw {
   struct Line {
     Vec3 a, b;
-    Eigen::Vector4f colour;
+    Vec4f colour;
   };
   std::vector<Line> lines;
-  void line(const Vec3& a, const Vec3& b, const Eigen::Vector4f& c) override {
-    lines.push_back({a, b, c});
-  }
-  void point(const Vec3&, const Eigen::Vector4f&, float) override {}
-  void text(const Vec3&, const Eigen::Vector4f&, std::string_view) override {}
+  void line(const Vec3& a, const Vec3& b, const Vec4f& c) override { lines.push_back({a, b, c}); }
+  void point(const Vec3&, const Vec4f&, float) override {}
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 };
 
 NodeBound hull_bound(std::vector<Vec3> points, double radius) {

@@ -22,7 +22,7 @@ struct Moving {
   Vec3 axis = Vec3::UnitX();
 
   Pose at(double s) const {
-    const Quat q(Eigen::AngleAxisd(s * bound.angle, axis));
+    const Quat q(axis_angle(axis, s * bound.angle));
     return {bound.centre + s * bound.translation - q * bound.centre, q};
   }
 };

@@ -136,8 +136,8 @@ TEST_CASE("axes of boxes are at right angles, however narrow the triangles") {
     const ObbTree tree(mesh);
     double worst = 0;
     for (const ObbTree::Node& n : tree.nodes()) {
-      const Mat3 axes = Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(n.axes.data())
-                            .cast<double>();
+      const float* const a = n.axes.data();
+      const Mat3 axes = Mat3f(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8]).cast<double>();
       worst = std::max(worst, (axes.transpose() * axes - Mat3::Identity()).norm());
     }
     CHECK(worst < 1e-6);

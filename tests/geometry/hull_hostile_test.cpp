@@ -15,7 +15,7 @@ using hull_families::Points;
 
 namespace {
 
-using Long3 = Eigen::Matrix<long double, 3, 1>;
+using Long3 = Vector3<long double>;
 
 /// Distance from the nearest point of a triangle, which may be a sliver: weights of the corners are
 /// found along its longest side and across, and refined by what is left, so that the answer is
@@ -105,7 +105,7 @@ TEST_CASE("hull of every hard family is valid at every tolerance, place and size
         if (change == 1 || change == 2) p = turn * p;
         if (change == 2 || change == 3) p += move;
         if (change == 4) p *= scale;
-        if (change == 5) p = p.cast<float>().cast<double>().eval();
+        if (change == 5) p = p.cast<float>().cast<double>();
       }
       const double tolerance = std::array{0.0, 1e-12, 1e-9, 1e-6, 1e-3}[random.below(5)];
       (valid_or_refused(family.name, points, {tolerance}) ? built : refused) += 1;
@@ -189,7 +189,7 @@ TEST_CASE("the tree of planes finds the planes that trying all finds") {
   int outside = 0, cases = 0;
   for (int i = 0; i < draws::count(20); ++i) {
     Points points;
-    const Vec3 at = i % 2 ? Vec3(draws::in_box(random, 1e4)) : Vec3(Vec3::Zero());
+    const Vec3 at = i % 2 ? Vec3(draws::in_box(random, 1e4)) : Vec3::Zero();
     for (int k = 0; k < 300; ++k) points.push_back(at + draws::direction(random));
     const auto hull = convex_hull(points, {});
     REQUIRE(hull.ok());

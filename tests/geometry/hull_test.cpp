@@ -130,7 +130,7 @@ TEST_CASE("degenerate families of points: duplicates, lattice, needle, slab, far
     for (const Vec3& shape : {Vec3(1e3, 1e-3, 1e-3), Vec3(1e3, 1e3, 1e-3), Vec3(1, 1e-4, 1e-8)}) {
       for (int i = 0; i < 20; ++i) {
         auto points = draws::points(random, 200);
-        for (Vec3& p : points) p = p.cwiseProduct(shape).eval();
+        for (Vec3& p : points) p = p.cwiseProduct(shape);
         check(points);
       }
     }
@@ -157,7 +157,7 @@ TEST_CASE("degenerate families of points: duplicates, lattice, needle, slab, far
   SUBCASE("stored in single precision") {
     auto points = make_mesh::cylinder(1, 0.5, 64).vertices;
     const Quat q = draws::rotation(random);
-    for (Vec3& p : points) p = (q * p).cast<float>().cast<double>().eval();
+    for (Vec3& p : points) p = (q * p).cast<float>().cast<double>();
     check(points, {1e-6});
     CHECK(convex_hull(points, {1e-6})->polyhedron.face_count() == 66);
   }

@@ -7,7 +7,7 @@
 #include "engine/geometry/mass_properties/principal_axes.hpp"
 #include "engine/math/det/det.hpp"
 #include "tests/geometry/draws.hpp"
-#include "tests/support/dense.hpp"
+#include "tests/support/dense3.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -229,7 +229,7 @@ TEST_CASE("principal axes against Eigen, with repeated moments and tiny differen
     moments *= std::pow(10.0, random.uniform(-8, 8));
     const Mat3 r = draws::rotation(random).toRotationMatrix();
     Mat3 inertia = r * moments.asDiagonal() * r.transpose();
-    inertia = (0.5 * (inertia + inertia.transpose())).eval();
+    inertia = (0.5 * (inertia + inertia.transpose()));
     const PrincipalAxes p = principal_axes(inertia);
     const Vec3 expected = symmetric_eigenvalues(inertia);
     const double size = moments.maxCoeff();

@@ -6,7 +6,7 @@
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/primitive_tests/primitive_tests.hpp"
 #include "tests/geometry/draws.hpp"
-#include "tests/support/dense.hpp"
+#include "tests/support/dense3.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,7 +18,7 @@ using namespace tumble::test;
 
 namespace {
 
-using Wide = Eigen::Matrix<long double, 3, 1>;
+using Wide = Vector3<long double>;
 using Corners = std::vector<Vec3>;
 
 Corners corners_of(const OrientedBox& b) {

@@ -16,7 +16,7 @@ using namespace tumble;
 namespace {
 
 using I = long long;
-using IVec = Eigen::Matrix<I, 3, 1>;
+using IVec = Vector3<I>;
 
 /// Whether some axis that could separate two convex sets with these corners and sides does so.
 /// All normals, cross products of sides, and their products within planes and along lines are
@@ -43,7 +43,7 @@ bool separated(const std::vector<IVec>& a, const std::vector<IVec>& b) {
   const IVec d = b[0] - a[0];
   if (separates(d)) return true;
   for (const IVec& u : sides) {
-    if (separates(u) || separates(u.cross(d).eval().cross(u))) return true;
+    if (separates(u) || separates(u.cross(d).cross(u))) return true;
     for (const IVec& v : sides) {
       const IVec n = u.cross(v);
       if (separates(n)) return true;
@@ -81,7 +81,7 @@ TEST_CASE("triangles, segments and points on small lattices: exact against integ
         b.push_back(lattice_point(random, size));
       }
       const double scale = i % 2 ? 1.0 : 0x1p-20;
-      const Vec3 offset = i % 3 ? Vec3(Vec3::Zero()) : Vec3(scale * Vec3(1048577, -77, 4097));
+      const Vec3 offset = i % 3 ? Vec3::Zero() : scale * Vec3(1048577, -77, 4097);
       const auto at = [&](const IVec& p) { return to_double(p, scale, offset); };
       const std::array<Vec3, 3> ta{at(a[0]), at(a[1]), at(a[2])}, tb{at(b[0]), at(b[1]), at(b[2])};
       const bool meet = !separated(a, b);

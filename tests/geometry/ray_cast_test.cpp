@@ -4,7 +4,7 @@
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/geometry/draws.hpp"
-#include "tests/support/dense.hpp"
+#include "tests/support/dense3.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -110,7 +110,7 @@ TEST_CASE("rays against sphere, box, capsule, cylinder, half-space, convex: as s
     compare([&](const Ray& r, double t) { return ray_cylinder(r, 0.8, 0.9, t); },
             [&](const Vec3& p) {
               const Vec2 q(std::hypot(p.x(), p.z()) - 0.9, std::fabs(p.y()) - 0.8);
-              return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+              return q.cwiseMax(Vec2::Zero()).norm() + std::min(q.maxCoeff(), 0.0);
             },
             64);
   }
@@ -154,8 +154,7 @@ TEST_CASE("rays against triangles solve the 3x3 system, with the side they see")
     const auto t = draws::triangle(random);
     Ray ray{draws::in_box(random, 2), draws::direction(random)};
     if (i % 2) ray.direction = (t[0] + t[1] + t[2]) / 3 + draws::in_box(random, 0.4) - ray.origin;
-    Mat3 m;
-    m << t[1] - t[0], t[2] - t[0], -ray.direction;
+    const Mat3 m = Mat3::from_columns(t[1] - t[0], t[2] - t[0], -ray.direction);
     const Vec3 solution = solve(m, ray.origin - t[0]);
     const double u = solution.x(), v = solution.y(), s = solution.z();
     const double margin = std::min({u, v, 1 - u - v, s});

@@ -5,6 +5,7 @@
 #include "engine/geometry/primitive_tests/triangle_pairs.hpp"
 #include "engine/geometry/solid/self_intersection.hpp"
 #include "engine/geometry/solid/solid_report.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 
 #include <algorithm>
@@ -126,7 +127,7 @@ TEST_CASE("cones of twenty thousand slivers are sound, discs only open") {
   }
   CHECK(check_solid(make_mesh::cylinder(0.1, 1, int(n))).text() == "");
   // In a plane across the first axis, along which every box is the same.
-  const Quat across(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()));
+  const Quat across(axis_angle(Vec3::UnitY(), 0.5 * std::numbers::pi));
   for (const Quat& q : {across, turned}) {
     const SolidReport r = check_solid(cone(n, 0, false, q));
     REQUIRE(r.faults.size() == 1);

@@ -46,7 +46,7 @@ TEST_CASE("star-shaped polygons in any plane: right area, no triangle turned") {
     triangulate_polygon(v, corners, out);
     CHECK(out.size() == n - 2);
     bool forward = true;
-    const Vec3 normal = i % 2 ? Vec3(q * Vec3::UnitZ()) : Vec3(Vec3::UnitZ());
+    const Vec3 normal = i % 2 ? q * Vec3::UnitZ() : Vec3::UnitZ();
     CHECK(area(v, out, normal, forward) == doctest::Approx(expected).epsilon(1e-12));
     CHECK(forward);
   }

@@ -25,7 +25,7 @@ TEST_CASE("a quotient of sums of two doubles leaves nothing of the dividend") {
   CHECK(third.low == doctest::Approx(1.0 / 3 * 0x1p-54).epsilon(1e-12));
 }
 
-TEST_CASE("plain vectors do what Eigen's do") {
+TEST_CASE("plain vectors do what those of doubles do") {
   Random r(6);
   const auto draw = [&r] { return Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)); };
   for (int i = 0; i < 100; ++i) {

@@ -5,7 +5,6 @@
 #include "engine/math/rotation.hpp"
 #include "tests/support/precise_motion.hpp"
 
-#include <Eigen/Dense>
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -79,7 +78,8 @@ TEST_CASE("rates of attached and carried vectors, matrices, tensors and quaterni
       CHECK((second.col(c) - rounded(central_second_rate(column))).norm() < 1e-12);
     }
     // A constant tensor in the body: its rate on a fixed vector.
-    const Mat3 half = Mat3::NullaryExpr([&] { return r.uniform(-1, 1); });
+    Mat3 half;
+    for (int k = 0; k < 9; ++k) half(k % 3, k / 3) = r.uniform(-1, 1);
     const Mat3 body = half + half.transpose(), world = R * body * R.transpose();
     const auto applied = [&](const Precise& t) {
       Precise3 out{Precise(0), Precise(0), Precise(0)};

@@ -3,13 +3,14 @@
 #include "engine/math/rotation.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/det/det.hpp"
 #include "tests/support/scale.hpp"
 
 #include <cmath>
 #include <cstdlib>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 using namespace tumble;
@@ -36,6 +37,18 @@ Quat rotation(Random& r) {
   return axis_angle(direction(r), r.uniform(-3, 3));
 }
 
+Eigen::Quaterniond by_eigen(const Quat& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
+Eigen::Quaterniond turn_by_eigen(const Vec3& axis, double angle) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, dense(axis)));
+}
+
+Quat ours(const Eigen::Quaterniond& q) {
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
 /// The direction at which tangent_frame jumps.
 const Vec3 tangent_pole = -Vec3(2, 3, 6) / 7;
 
@@ -60,13 +73,13 @@ TEST_CASE("axis and angle, Euler angles: as Eigen's") {
   for (int i = 0; i < count(10000); ++i) {
     const Vec3 axis = direction(random) * random.uniform(0.1, 10);
     const double angle = random.uniform(-7, 7);
-    const Quat expected(Eigen::AngleAxisd(angle, axis.normalized()));
+    const Quat expected = ours(turn_by_eigen(axis.normalized(), angle));
     CHECK((axis_angle(axis, angle).coeffs() - expected.coeffs()).norm() < 1e-15);
     const Vec3 e = vector(random, 4);
     const Mat3 m =
-        (Eigen::AngleAxisd(e.x(), Vec3::UnitX()) * Eigen::AngleAxisd(e.y(), Vec3::UnitY()) *
-         Eigen::AngleAxisd(e.z(), Vec3::UnitZ()))
-            .toRotationMatrix();
+        small_matrix((turn_by_eigen(Vec3::UnitX(), e.x()) * turn_by_eigen(Vec3::UnitY(), e.y()) *
+                      turn_by_eigen(Vec3::UnitZ(), e.z()))
+                         .toRotationMatrix());
     CHECK((euler_xyz(e).toRotationMatrix() - m).norm() < 1e-14);
   }
   CHECK(axis_angle(Vec3::Zero(), 1).coeffs() == Quat::Identity().coeffs());
@@ -142,7 +155,7 @@ TEST_CASE("turning at constant angular velocity is exact for any step and adds u
     const Quat q = rotation(random);
     const Vec3 omega = direction(random) * std::pow(10.0, random.uniform(-8, 3));
     const double h = random.uniform(1e-4, 0.1);
-    const Quat exact = Quat(Eigen::AngleAxisd(omega.norm() * h, omega.normalized())) * q;
+    const Quat exact = ours(turn_by_eigen(omega.normalized(), omega.norm() * h)) * q;
     CHECK(angle_between(integrate_rotation(q, omega, h), exact) < 1e-15 * 8);
     Quat steps = q;
     for (int k = 0; k < 16; ++k) steps = integrate_rotation(steps, omega, h / 16);
@@ -162,7 +175,7 @@ TEST_CASE("interpolation takes the shortest way and ends where it should") {
     CHECK(angle_between(interpolate(a, b, 1), b.dot(a) < 0 ? Quat(-b.coeffs()) : b) < 1e-15 * 4);
     const Quat middle = interpolate(a, b, 0.5);
     CHECK((interpolate(a, Quat(-b.coeffs()), 0.5).coeffs() - middle.coeffs()).norm() < 1e-15 * 2);
-    CHECK((middle.coeffs() - a.slerp(0.5, b).coeffs()).norm() < 1e-14);
+    CHECK((middle.coeffs() - ours(by_eigen(a).slerp(0.5, by_eigen(b))).coeffs()).norm() < 1e-14);
     // Off the middle it is slower or faster than slerp, but on the same arc.
     const Quat s = interpolate(a, b, 0.3);
     CHECK(std::fabs(s.norm() - 1) < 1e-15 * 4);
@@ -198,8 +211,7 @@ TEST_CASE("tangent frames are orthonormal and right-handed in every direction") 
     if (i % 8 == 6) n = tangent_pole;
     Vec3 t1, t2;
     tangent_frame(n, t1, t2);
-    Mat3 m;
-    m << t1, t2, n;
+    const Mat3 m = Mat3::from_columns(t1, t2, n);
     CHECK((m.transpose() * m - Mat3::Identity()).norm() < 1e-15 * 4);
     CHECK((t1.cross(t2) - n).norm() < 1e-15 * 4);
   }

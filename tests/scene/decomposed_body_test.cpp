@@ -73,7 +73,7 @@ TEST_CASE("a ball falls into a decomposed cup" * doctest::test_suite("long")) {
       "ball": {"shape": {"type": "sphere", "radius": 0.03}, "position": [0, 0.4, 0]}})");
   for (int i = 0; i < 120; ++i) REQUIRE(scene.world->step().ok());
   CHECK(named(scene, "ball").pose.x.y() < 0.08);
-  CHECK(named(scene, "ball").pose.x.head<1>().norm() < 0.08);
+  CHECK(std::fabs(named(scene, "ball").pose.x.x()) < 0.08);
 }
 
 TEST_CASE("pieces are kept by content: the same from the cache, made anew when it is damaged") {

@@ -112,7 +112,7 @@ TEST_CASE("a mesh that is declared as fit is one primitive with the mesh's mass"
   const Shape& shape = *live(scene, "box").shapes[0].shape;
   CHECK(shape_entry(shape.type()).name == "box");
   Vec3 half = shape.def().half_extents;
-  std::sort(half.begin(), half.end());
+  std::sort(half.data(), half.data() + 3);
   CHECK((half - Vec3(0.1, 0.15, 0.2)).norm() < 1e-6);
   CHECK(live(scene, "box").mass == doctest::Approx(24).epsilon(1e-6));
 }

@@ -1,8 +1,9 @@
 // The scene rattleback. Reference: the equations of a rigid body that rolls without slip on a
 // plane, integrated here on their own by the classical Runge-Kutta method with steps of 1/19200 s
 // (halving them changes the spin by less than 1e-9 rad/s in six seconds).
+#include "engine/math/rotation.hpp"
 #include "tests/scene/shipped_scene.hpp"
-#include "tests/support/dense.hpp"
+#include "tests/support/dense3.hpp"
 
 #include <algorithm>
 
@@ -19,9 +20,9 @@ struct Stone {
   double mass = 1, gravity = 9.81;
   Vec3 squares{0.2 * 0.2, 0.02 * 0.02, 0.03 * 0.03};  ///< of the semi-axes [m2]
   Vec3 centre{0, 0.01, 0};                            ///< of the ellipsoid, from that of mass [m]
-  Mat3 inertia;                                       ///< about the centre of mass [kg m2]
+  /// About the centre of mass [kg m2].
+  Mat3 inertia{2e-4, 0, 0.2e-4, 0, 17e-4, 0, 0.2e-4, 0, 16e-4};
 
-  Stone() { inertia << 2e-4, 0, 0.2e-4, 0, 17e-4, 0, 0.2e-4, 0, 16e-4; }
   /// From the centre of mass to the point of contact, where the vertical is `up`.
   Vec3 contact(const Vec3& up) const {
     const Vec3 s = squares.cwiseProduct(up);
@@ -40,12 +41,12 @@ struct Rolling {
   Quat q;
   Vec3 w, x;
 
-  Vec3 up() const { return q.conjugate()._transformVector(Vec3::UnitY()); }
+  Vec3 up() const { return q.conjugate() * Vec3::UnitY(); }
   double spin() const { return w.dot(up()); }
 };
 
 struct RollingRate {
-  Eigen::Vector4d q;
+  Vec4 q;
   Vec3 w, x;
 };
 
@@ -59,7 +60,7 @@ RollingRate rate(const Stone& s, const Rolling& r) {
   const Vec3 moment = -r.w.cross(s.inertia * r.w) - s.mass * p.cross(r.w.cross(p_rate)) +
                       s.mass * s.gravity * p.cross(up);
   const Quat turn = r.q * Quat(0, r.w.x(), r.w.y(), r.w.z());
-  return {0.5 * turn.coeffs(), solve(about, moment), r.q._transformVector(-r.w.cross(p))};
+  return {0.5 * turn.coeffs(), solve(about, moment), r.q * (-r.w.cross(p))};
 }
 
 Rolling moved(Rolling r, const RollingRate& d, double h) {
@@ -89,8 +90,8 @@ struct Beside {
   Beside(const RigidBody& b, const Vec3& w) {
     // The ellipsoid's axes in those of the body.
     const double skew = 0.5 * std::atan(2 * 0.2 / (16 - 2));
-    rolling.q = Quat(Eigen::AngleAxisd(-skew, Vec3::UnitY()));
-    rolling.w = rolling.q.conjugate()._transformVector(w);
+    rolling.q = axis_angle(Vec3::UnitY(), -skew);
+    rolling.w = rolling.q.conjugate() * w;
     rolling.x = b.pose.x;
   }
   void compare(const RigidBody& b, double t, double tick) {
@@ -100,7 +101,7 @@ struct Beside {
     spin_ = b.omega.y();
     spin_error = std::max(spin_error, std::fabs(spin_ - rolling.spin()));
     place_error = std::max(place_error, (b.pose.x - rolling.x).norm());
-    const Vec3 up = rolling.q._transformVector(Vec3::UnitY());
+    const Vec3 up = rolling.q * Vec3::UnitY();
     tilt_error = std::max(tilt_error, (b.pose.direction(Vec3::UnitY()) - up).norm());
     const auto crossing = [&](double from, double to, double& first) {
       if (first == 0 && from < 0 && to >= 0) first = t - tick * to / (to - from);

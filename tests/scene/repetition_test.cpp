@@ -4,6 +4,7 @@
 #include "engine/scene/repetition.hpp"
 
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/scene/scene_text.hpp"
 
 #include <cmath>
@@ -77,8 +78,7 @@ TEST_CASE("stack: steps and turns; the body's own orientation comes first") {
   REQUIRE(poses.size() == 4);
   for (int i = 0; i < 4; ++i) {
     CHECK(near(poses[size_t(i)].x, Vec3(0.1 * i, i, 0)));
-    const Quat expected = Quat(Eigen::AngleAxisd(i * pi / 6, Vec3::UnitY())) *
-                          Quat(Eigen::AngleAxisd(pi / 2, Vec3::UnitZ()));
+    const Quat expected = axis_angle(Vec3::UnitY(), i * pi / 6) * axis_angle(Vec3::UnitZ(), pi / 2);
     CHECK(near(poses[size_t(i)].q, expected));
   }
 }
@@ -121,7 +121,7 @@ TEST_CASE("formula sees i, n, u and the parameters") {
   REQUIRE(poses.size() == 6);
   for (int i = 0; i < 6; ++i) {
     CHECK(near(poses[size_t(i)].x, Vec3(3 * std::cos(i), i / 5.0, 6)));
-    CHECK(near(poses[size_t(i)].q, Quat(Eigen::AngleAxisd(i * pi / 12, Vec3::UnitY()))));
+    CHECK(near(poses[size_t(i)].q, axis_angle(Vec3::UnitY(), i * pi / 12)));
   }
   std::get<FormulaRepetition>(c.body.repeat[0].kind).position[1] = "1 / (i - 3)";
   const auto bad = copy_poses(c.scene, "b", c.body, c.warnings);

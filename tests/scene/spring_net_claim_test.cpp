@@ -1,6 +1,7 @@
 // The scene spring_net. References: the net's rest as the least of its energy, found here by
 // Newton's method with a line search from the springs' lengths alone (force left below 1e-11 N);
 // the balance of the books.
+#include "engine/math/dense.hpp"
 #include "tests/scene/shipped_scene.hpp"
 #include "tests/support/dense.hpp"
 
@@ -59,13 +60,13 @@ struct Net {
       const Vec3 u = d / length, pull = t.stiffness * (length - t.length) * u;
       const Mat3 K =
           t.stiffness * (u * u.transpose() + across * (Mat3::Identity() - u * u.transpose()));
-      slope.segment<3>(3 * t.a) -= pull;
-      matrix.block<3, 3>(3 * t.a, 3 * t.a) += K;
+      slope.segment<3>(3 * t.a) -= dense(pull);
+      matrix.block<3, 3>(3 * t.a, 3 * t.a) += dense(K);
       if (t.b < 0) continue;
-      slope.segment<3>(3 * t.b) += pull;
-      matrix.block<3, 3>(3 * t.b, 3 * t.b) += K;
-      matrix.block<3, 3>(3 * t.a, 3 * t.b) -= K;
-      matrix.block<3, 3>(3 * t.b, 3 * t.a) -= K;
+      slope.segment<3>(3 * t.b) += dense(pull);
+      matrix.block<3, 3>(3 * t.b, 3 * t.b) += dense(K);
+      matrix.block<3, 3>(3 * t.a, 3 * t.b) -= dense(K);
+      matrix.block<3, 3>(3 * t.b, 3 * t.a) -= dense(K);
     }
     const Eigen::VectorXd move = solve_symmetric(matrix, -slope);
     const std::vector<Vec3> before = x;
@@ -73,7 +74,7 @@ struct Net {
     double part = std::min(1.0, 0.2 / move.cwiseAbs().maxCoeff());
     for (int k = 0; k < 40; ++k, part *= 0.5) {
       for (size_t i = 0; i < x.size(); ++i)
-        x[i] = before[i] + part * move.segment<3>(Eigen::Index(3 * i));
+        x[i] = before[i] + part * small_vector(move.segment<3>(Eigen::Index(3 * i)));
       if (energy() <= from + 1e-15) break;
     }
     return slope.cwiseAbs().maxCoeff();

@@ -1,5 +1,7 @@
 #include "tests/support/dense.hpp"
 
+#include "engine/math/dense.hpp"
+
 #include <algorithm>
 
 #include <Eigen/Dense>
@@ -12,7 +14,8 @@ Solved solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
 }
 
 Vec3 solve(const Mat3& A, const Vec3& b) {
-  return A.fullPivLu().solve(b);
+  const Eigen::Vector3d x = dense(A).fullPivLu().solve(dense(b));
+  return small_vector(x);
 }
 
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
@@ -30,7 +33,7 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& A) {
 }
 
 Vec3 symmetric_eigenvalues(const Mat3& A) {
-  return Eigen::SelfAdjointEigenSolver<Mat3>(A).eigenvalues();
+  return small_vector(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(dense(A)).eigenvalues());
 }
 
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& A) {

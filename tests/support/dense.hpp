@@ -1,10 +1,12 @@
 #pragma once
 // Dense linear algebra for references. Each of Eigen's decompositions takes a source that names it
 // two to fifteen seconds to compile, so they are compiled here, once for all tests.
-#include "engine/math/types.hpp"
+#include "tests/support/dense3.hpp"
 
 #include <complex>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace tumble::test {
 
@@ -14,7 +16,6 @@ struct Solved {
   double determinant;
 };
 Solved solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-Vec3 solve(const Mat3& A, const Vec3& b);
 
 /// x of A x = b for symmetric A by Cholesky's decomposition with pivoting, L D L^T.
 Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
@@ -29,8 +30,6 @@ LeastNorm least_norm(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double 
 
 /// Falling.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);
-/// Rising.
-Vec3 symmetric_eigenvalues(const Mat3& A);
 /// By falling real part, then by falling imaginary part.
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& A);
 

@@ -12,7 +12,7 @@ Vec3 vec(const mjtNum* v) {
 }
 
 Mat3 mat(const mjtNum* m) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m);
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
 }
 
 }  // namespace

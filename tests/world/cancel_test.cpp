@@ -2,6 +2,7 @@
 // before the tick.
 #include "engine/core/random.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/support/ring_mesh.hpp"
 #include "tests/support/test_world.hpp"
 
@@ -27,7 +28,7 @@ void add_pulled_column(TestWorld& w, int blocks) {
   BodyId pulled;
   for (int k = 0; k < blocks; ++k) {
     BodyDef def = TestWorld::box_def({0, 0.15 + 0.3 * k, 0}, {0.3, 0.15, 0.3});
-    def.pose.q = Quat(Eigen::AngleAxisd(0.19 * k, Vec3::UnitY()));
+    def.pose.q = axis_angle(Vec3::UnitY(), 0.19 * k);
     def.shapes[0].material.friction = 0.6;
     const BodyId id = w.add(def);
     if (k == blocks / 2) pulled = id;

@@ -2,6 +2,7 @@
 // closed forms of one degree of freedom, with the error of second order in the tick that going
 // straight within it has; the course itself at ticks; the same run from a snapshot and from the
 // replay log.
+#include "engine/math/rotation.hpp"
 #include "engine/math/time_course.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
@@ -137,7 +138,7 @@ TEST_CASE("a kinematic body is on its course at every tick, and turns as often a
       CHECK((w.body(body).pose.x - Vec3(1 + 0.3 * std::cos(2 * t), 2, 3 + std::min(2 * t, 2.0)))
                 .norm() < 1e-12);
     }
-    const Quat turned(Eigen::AngleAxisd(40 * 1.5 * 1.5, Vec3::UnitY()));
+    const Quat turned(axis_angle(Vec3::UnitY(), 40 * 1.5 * 1.5));
     CHECK(w.body(body).pose.q.angularDistance(turned) < 1e-9);
     // What sets its velocity takes it off its course.
     REQUIRE(w->set_velocity(body, {1, 0, 0}, Vec3::Zero()).ok());

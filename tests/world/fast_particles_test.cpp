@@ -2,6 +2,7 @@
 // either stepper. References: closed forms of one collision, of rest and of sliding (the recurrence
 // of one velocity a tick), conserved momenta, the books' own balance.
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
 
 #include <array>
@@ -52,7 +53,7 @@ BodyId add_slope(TestWorld& w, double tilt, double friction) {
   BodyDef def =
       TestWorld::shape_def({.type = ShapeType::half_space}, Vec3::Zero(), BodyType::fixed);
   def.shapes[0].material.friction = friction;
-  def.pose.q = Quat(Eigen::AngleAxisd(tilt, Vec3::UnitZ()));
+  def.pose.q = axis_angle(Vec3::UnitZ(), tilt);
   return w.add(def);
 }
 

@@ -250,7 +250,7 @@ TEST_CASE("fluids: frames say with what force a fluid is on a body, and how its 
   }
   CHECK(down == doctest::Approx(9.81 * mass).epsilon(0.05));
   CHECK(std::abs(side) < 0.05 * 9.81 * mass);
-  CHECK(w->frame()->fluid_force(BodyId{}).force == Vec3(Vec3::Zero()));
+  CHECK(w->frame()->fluid_force(BodyId{}).force == Vec3::Zero());
   CHECK(w->frame()->fluid_force(box).body == box);
   const ParticleMeasures& m = w->frame()->particles[0]->measures;
   CHECK(m.count == fluid.size());

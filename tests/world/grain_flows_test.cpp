@@ -3,6 +3,7 @@
 // (Beverloo, Leniger, van de Velde, Chem. Eng. Sci. 15, 1961), and what the angle of repose
 // depends on (Zhou, Wright, Yang, Xu, Yu, Physica A 269, 1999).
 #include "engine/core/random.hpp"
+#include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ BodyDef ring(double inner, double thickness, double low, double high, double fri
     panel.shape.type = ShapeType::box;
     panel.shape.half_extents = {0.5 * thickness, 0.5 * (high - low),
                                 (inner + thickness) * std::tan(pi / count)};
-    panel.pose.q = Quat(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+    panel.pose.q = axis_angle(Vec3::UnitY(), angle);
     panel.pose.x = panel.pose.q * Vec3(inner + 0.5 * thickness, 0, 0);
     panel.pose.x.y() = 0.5 * (low + high);
     panel.material.friction = friction;

@@ -3,6 +3,7 @@
 // order and a tenth of the tick, whose own error is below 1e-10 N here; the torque omega x I omega
 // of a rotor that is out of balance; statics with a contact, and by symmetry where joints share a
 // load in many ways.
+#include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 
 #include <array>
@@ -213,7 +214,7 @@ TEST_CASE("bearings of a rotor that is out of balance hold its torque") {
     INFO(stepper);
     const auto w = world_of(stepper, 200);
     BodyDef rotor = block({0, 1, 0}, {0.5, 0.1, 0.2}, 3);
-    rotor.pose.q = Quat(Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()));
+    rotor.pose.q = axis_angle(Vec3(1, 2, 0.5).normalized(), 0.4);
     rotor.angular_velocity = {0, 0, 12};
     const BodyId id = *w->create_body(rotor);
     JointDef bearing = joint(JointKind::revolute, {}, id, {0, 1, 0}, Vec3::Zero());

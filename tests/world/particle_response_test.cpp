@@ -79,7 +79,7 @@ BodyId slope_under(TestWorld& w, double tilt, double friction, const Vec3& at = 
   m.friction = friction;
   def.shapes.push_back({s, {}, m});
   def.pose.x = at;
-  def.pose.q = Quat(Eigen::AngleAxisd(tilt, Vec3::UnitZ()));
+  def.pose.q = axis_angle(Vec3::UnitZ(), tilt);
   return w.add(def);
 }
 

@@ -63,7 +63,7 @@ WorldSettings weightless(const char* stepper = "realtime") {
 
 /// Turns without favourites that come again with the seed.
 Quat any_turn(Random& random) {
-  Eigen::Vector4d q;
+  Vec4 q;
   do
     for (int k = 0; k < 4; ++k) q[k] = random.uniform(-1, 1);
   while (q.squaredNorm() > 1 || q.squaredNorm() < 0.01);

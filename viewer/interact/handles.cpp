@@ -74,7 +74,7 @@ double pixels_from(const View& view, const Vec3& a, const Vec3& b, double x, dou
   const Vec3 p = project(view.camera, a, view.width, view.height);
   const Vec3 q = project(view.camera, b, view.width, view.height);
   if (!(p.z() > 0 && q.z() > 0)) return 1e9;
-  const Eigen::Vector2d from = p.head<2>(), way = q.head<2>() - from, at(x, y);
+  const Vec2 from = p.head<2>(), way = q.head<2>() - from, at(x, y);
   const double length2 = way.squaredNorm();
   const double t = length2 > 0 ? std::clamp((at - from).dot(way) / length2, 0.0, 1.0) : 0;
   return (from + t * way - at).norm();

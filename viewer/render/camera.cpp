@@ -43,12 +43,8 @@ Camera heightened(const Camera& camera, double ratio) {
 
 Mat4 view_matrix(const Camera& camera) {
   const ViewAxes f = frame_of(camera);
-  Mat4 m = Mat4::Identity();
-  m.block<1, 3>(0, 0) = f.right.transpose();
-  m.block<1, 3>(1, 0) = f.up.transpose();
-  m.block<1, 3>(2, 0) = f.back.transpose();
-  m.block<3, 1>(0, 3) = -(m.block<3, 3>(0, 0) * camera.eye);
-  return m;
+  const Mat3 axes = Mat3::from_rows(f.right, f.up, f.back);
+  return Mat4::affine(axes, -(axes * camera.eye));
 }
 
 Mat4 perspective_matrix(double fov_deg, double aspect, double near, double far) {
@@ -128,7 +124,7 @@ Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double
 Frustum frustum_of(const Mat4& m) {
   Frustum f;
   for (int i = 0; i < 6; ++i) {
-    const Vec4 row = m.row(3).transpose() + (i % 2 ? -1.0 : 1.0) * m.row(i / 2).transpose();
+    const Vec4 row = m.row(3) + (i % 2 ? -1.0 : 1.0) * m.row(i / 2);
     f.planes[size_t(i)] = row / row.head<3>().norm();
   }
   return f;

@@ -1,13 +1,11 @@
 #pragma once
 #include "engine/geometry/constructions/ray_casts.hpp"
+#include "engine/math/matrix4.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>
 
 namespace tumble {
-
-/// 4 x 4 matrix, column-major as GL takes it.
-using Mat4 = Eigen::Matrix4d;
 
 /// A perspective camera in world axes.
 struct Camera {

@@ -46,13 +46,18 @@ GpuInstance pack(const MeshInstance& i) {
   return g;
 }
 
+/// How much longer it makes each axis.
+Vec3f lengthening(const Mat3f& linear) {
+  return {linear.col(0).norm(), linear.col(1).norm(), linear.col(2).norm()};
+}
+
 /// Centre and radius of the bounding sphere in the world.
 void bound(const MeshInstance& i, Vec3& centre, double& radius) {
   const MeshData& m = *i.mesh;
-  const Eigen::Matrix3f& l = i.transform.linear;
+  const Mat3f& l = i.transform.linear;
   centre = (l * (0.5f * (m.min + m.max)) + i.transform.offset).cast<double>();
   const Vec3f half = 0.5f * (m.max - m.min);
-  const Vec3f axes = l.colwise().norm().transpose();
+  const Vec3f axes = lengthening(l);
   radius = double(axes.cwiseProduct(half).norm() + 1.7321f * i.inflate);
 }
 
@@ -69,7 +74,7 @@ const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels)
 /// Of a sphere that is not squashed; else 0 [m].
 double radius_of_ball(const MeshInstance& i) {
   if (i.inflate != 0 || i.mesh->id != sphere_mesh()->id) return 0;
-  const Vec3f axes = i.transform.linear.colwise().norm().transpose();
+  const Vec3f axes = lengthening(i.transform.linear);
   const float r = axes[0];
   return (axes - Vec3f::Constant(r)).cwiseAbs().maxCoeff() <= 1e-4f * r ? double(r) : 0;
 }
@@ -207,7 +212,7 @@ class Planner {
     if (item.layer == Layer::casters && e.ball) stay_inside(**item.mesh, g);
     if (e.selected && item.layer != Layer::outlined)  // the outline may be hidden in a heap
       for (size_t c = 0; c < 3; ++c)
-        g.colour[c] += 0.3f * (scene_.selection_colour[Eigen::Index(c)] - g.colour[c]);
+        g.colour[c] += 0.3f * (scene_.selection_colour[int(c)] - g.colour[c]);
     if (item.layer == Layer::outlined) {
       const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
       const float pixel = float(depth / view_.pixels_per_radian);

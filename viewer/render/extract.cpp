@@ -99,10 +99,10 @@ void add_spheres(const ParticleFrame& p, const std::vector<Vec3>& places,
   if (coloured) add_particle_legend(p, scale, out);
   for (size_t i = 0; i < places.size(); ++i) {
     if (woven.holds(p.id, p.ids[i])) continue;
-    Vec4f colour(1, 1, 1, 1 + float(p.glow));
-    colour.head<3>() =
+    const Vec3f c =
         coloured ? viridis_linear(double(p.value[i]), scale.low, scale.high) : p.colour[i];
-    out.spheres.push_back({places[i].cast<float>(), float(p.radius[i]), colour});
+    out.spheres.push_back(
+        {places[i].cast<float>(), float(p.radius[i]), Vec4f(c[0], c[1], c[2], 1 + float(p.glow))});
   }
 }
 
@@ -125,9 +125,9 @@ void add_coloured(const ParticleFrame& p, const std::vector<Vec3>& places,
   const std::string title = p.name.empty() ? colours.title : p.name + ": " + colours.title;
   out.legends.push_back({title, colours.unit, colours.low, colours.high});
   for (size_t i = 0; i < p.x.size(); ++i) {
-    Vec4f colour(1, 1, 1, 1);
-    colour.head<3>() = viridis_linear(double(colours.value[i]), colours.low, colours.high);
-    out.spheres.push_back({places[i].cast<float>(), float(p.radius[i]), colour});
+    const Vec3f c = viridis_linear(double(colours.value[i]), colours.low, colours.high);
+    out.spheres.push_back(
+        {places[i].cast<float>(), float(p.radius[i]), Vec4f(c[0], c[1], c[2], 1)});
   }
 }
 

@@ -59,8 +59,8 @@ struct Lattice {
     const Vec3 size = box.max - box.min;
     spacing = std::max(size.maxCoeff() / along_edge, std::cbrt(size.prod() / places));
     for (int axis = 0; axis < 3; ++axis) {
-      count[axis] = std::max(1, int(size[axis] / spacing + 0.5));
-      corner[axis] += 0.5 * (size[axis] - (count[axis] - 1) * spacing);
+      int& n = count[size_t(axis)] = std::max(1, int(size[axis] / spacing + 0.5));
+      corner[axis] += 0.5 * (size[axis] - (n - 1) * spacing);
     }
   }
   template <class Visit>
@@ -72,7 +72,7 @@ struct Lattice {
 
   Vec3 corner;         ///< the first place [m]
   double spacing = 0;  ///< [m]
-  Eigen::Vector3i count;
+  std::array<int, 3> count;
 };
 
 /// What fields on the same things do together there.
@@ -80,9 +80,7 @@ void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields,
                  RenderScene& out) {
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite()) return;
   const double margin = 2 * typical_size(frame);
-  bounds.min.array() -= margin;
-  bounds.max.array() += margin;
-  const Lattice lattice(bounds);
+  const Lattice lattice(bounds.inflated(margin));
   for (const bool flow : {true, false}) {
     // Between each other: no two arrows cross.
     const Vec3 shift = Vec3::Constant((flow ? -0.25 : 0.25) * lattice.spacing);

@@ -143,11 +143,11 @@ FrameSetup make_frame_setup(const RenderScene& scene, int width, int height) {
   const double tangent = 1 / perspective_matrix(fov, 1, 1, 2)(1, 1);
   s.view.clip_from_world = perspective_matrix(fov, aspect, d.near, d.far) * view;
   s.view.eye = s.camera.eye;
-  s.view.right = view.block<1, 3>(0, 0).transpose();
-  s.view.up = view.block<1, 3>(1, 0).transpose();
+  s.view.right = view.row(0).head<3>();
+  s.view.up = view.row(1).head<3>();
   s.view.width = width;
   s.view.height = height;
-  s.view.forward = -view.block<1, 3>(2, 0).transpose();
+  s.view.forward = -view.row(2).head<3>();
   s.view.pixels_per_radian = 0.5 * height / tangent;
 
   Vec3 to_sun = scene.sun.to_sun;

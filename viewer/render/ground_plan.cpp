@@ -72,7 +72,7 @@ class GroundPlanner {
   void add_patch(const Aabb& box, double low, double high, double rim) {
     Patch p;
     for (size_t k = 0; k < 2; ++k) {
-      const Eigen::Index axis = k == 0 ? 0 : 2;
+      const int axis = k == 0 ? 0 : 2;
       const double shift = high > 0 ? to_sun_[axis] / to_sun_.y() : 0;
       p.low[k] = box.min[axis] - std::max(shift * low, shift * high) - rim;
       p.high[k] = box.max[axis] - std::min(shift * low, shift * high) + rim;

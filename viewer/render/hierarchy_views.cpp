@@ -10,11 +10,11 @@ namespace {
 class WireSink final : public DebugDraw {
  public:
   explicit WireSink(std::vector<HierarchyView::Wire>& out) : out_(out) {}
-  void line(const Vec3& a, const Vec3& b, const Eigen::Vector4f& colour) override {
+  void line(const Vec3& a, const Vec3& b, const Vec4f& colour) override {
     out_.push_back({a, b, colour});
   }
-  void point(const Vec3&, const Eigen::Vector4f&, float) override {}
-  void text(const Vec3&, const Eigen::Vector4f&, std::string_view) override {}
+  void point(const Vec3&, const Vec4f&, float) override {}
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 
  private:
   std::vector<HierarchyView::Wire>& out_;

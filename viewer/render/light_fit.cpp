@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 namespace tumble {
 namespace {
 
@@ -47,8 +45,7 @@ LightFit fit_light(const Aabb& casters, const Vec3& to_sun, const Mat4& clip_fro
   const Vec3 z = to_sun.normalized();
   const Vec3 helper = std::fabs(z.y()) < 0.99 ? Vec3::UnitY() : Vec3::UnitX();
   const Vec3 x = helper.cross(z).normalized();
-  Mat3 rows;
-  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
+  const Mat3 rows = Mat3::from_rows(x, z.cross(x), z);
 
   Aabb box = in_frame(rows, casters);
   const Aabb seen = view_in_frame(rows, clip_from_world);
@@ -66,14 +63,10 @@ LightFit fit_light(const Aabb& casters, const Vec3& to_sun, const Mat4& clip_fro
     low[k] = std::floor((box.centre()[k] - 0.5 * side) / fit.texel) * fit.texel;
   const double margin = 0.02 * box.extent().z() + 4 * fit.texel;
   const double near = -(box.max.z() + margin), far = -(box.min.z() - margin);
-  Mat4 light_from_world = Mat4::Identity();
-  light_from_world.topLeftCorner<3, 3>() = rows;
+  const Mat4 light_from_world = Mat4::affine(rows, Vec3::Zero());
   const Mat4 clip = orthographic_matrix(low[0], low[0] + side, low[1], low[1] + side, near, far) *
                     light_from_world;
-  Mat4 half = Mat4::Identity();
-  half.diagonal() = Vec4(0.5, 0.5, 0.5, 1);
-  half.topRightCorner<3, 1>() = Vec3::Constant(0.5);
-  fit.shadow_from_world = half * clip;
+  fit.shadow_from_world = Mat4::affine(0.5 * Mat3::Identity(), Vec3::Constant(0.5)) * clip;
   fit.volume = frustum_of(clip);
   fit.empty = false;
   return fit;

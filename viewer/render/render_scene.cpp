@@ -68,7 +68,7 @@ void RenderScene::look_like(const RenderScene& other) {
 Aabb bounds_of(const MeshInstance& i) {
   Aabb box;
   if (!i.mesh || !i.transform.offset.allFinite() || !i.transform.linear.allFinite()) return box;
-  const Eigen::Matrix3f& m = i.transform.linear;
+  const Mat3f& m = i.transform.linear;
   const Vec3f centre = m * (0.5f * (i.mesh->min + i.mesh->max)) + i.transform.offset;
   const Vec3f half =
       m.cwiseAbs() * (0.5f * (i.mesh->max - i.mesh->min)) + Vec3f::Constant(i.inflate);
@@ -102,18 +102,15 @@ namespace {
 /// Of things with a centre and a radius.
 template <class Ball>
 Aabb bounds_of_balls(const std::vector<Ball>& balls, const Aabb& within) {
-  const Eigen::Array3f first = within.min.cast<float>(), last = within.max.cast<float>();
-  Eigen::Array3f low = Eigen::Array3f::Constant(std::numeric_limits<float>::infinity());
-  Eigen::Array3f high = -low;
+  const Array3<float> first = within.min.cast<float>(), last = within.max.cast<float>();
+  Vec3f low = Vec3f::Constant(std::numeric_limits<float>::infinity()), high = -low;
   for (const Ball& s : balls) {
-    if (!drawable(s) || (s.centre.array() < first || s.centre.array() > last).any()) continue;
-    low = low.min(s.centre.array() - s.radius);
-    high = high.max(s.centre.array() + s.radius);
+    if (!drawable(s) || (s.centre.array() < first).any() || (s.centre.array() > last).any())
+      continue;
+    low = low.cwiseMin(s.centre - Vec3f::Constant(s.radius));
+    high = high.cwiseMax(s.centre + Vec3f::Constant(s.radius));
   }
-  Aabb box;
-  box.min = low.matrix().cast<double>();
-  box.max = high.matrix().cast<double>();
-  return box;
+  return {low.cast<double>(), high.cast<double>()};
 }
 
 }  // namespace

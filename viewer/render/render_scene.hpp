@@ -44,7 +44,7 @@ struct Paint {
 
 /// x_world = linear * x_mesh + offset.
 struct Transform {
-  Eigen::Matrix3f linear = Eigen::Matrix3f::Identity();
+  Mat3f linear = Mat3f::Identity();
   Vec3f offset = Vec3f::Zero();
 };
 Transform transform_of(const Pose& pose, const Vec3& scale = Vec3::Ones());

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/core/debug_draw.hpp"
+#include "engine/geometry/debug_draw.hpp"
 #include "viewer/render/render_scene.hpp"
 
 namespace tumble {
@@ -10,15 +10,14 @@ class SceneDraw final : public DebugDraw {
   explicit SceneDraw(RenderScene& out, float line_width = 1.5f)
       : out_(out), line_width_(line_width) {}
 
-  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-            const Eigen::Vector4f& colour) override {
+  void line(const Vec3& a, const Vec3& b, const Vec4f& colour) override {
     out_.lines.push_back(
         {.a = a.cast<float>(), .b = b.cast<float>(), .colour = colour, .width = line_width_});
   }
-  void point(const Eigen::Vector3d& x, const Eigen::Vector4f& colour, float pixels) override {
+  void point(const Vec3& x, const Vec4f& colour, float pixels) override {
     out_.points.push_back({.x = x.cast<float>(), .colour = colour, .size = pixels});
   }
-  void text(const Eigen::Vector3d&, const Eigen::Vector4f&, std::string_view) override {}
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 
  private:
   RenderScene& out_;

@@ -88,7 +88,7 @@ std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, 
   if (!(to_sun.y() > 0)) return all;  // the veil's shade goes up, and has no end
   const Mat4 world_from_veil = veil.veil_from_world.inverse();
   const auto place = [&](double u, double v, double depth) {
-    return Vec3((world_from_veil * Vec4(u, v, depth, 1)).head<3>());
+    return (world_from_veil * Vec4(u, v, depth, 1)).head<3>();
   };
   double reach = 1;
   for (const double u : {0.0, 1.0})

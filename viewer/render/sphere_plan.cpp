@@ -59,9 +59,9 @@ class Sorter {
   }
   ProjectedDisc sun_disc(const Sight& sight) const {
     const SphereInstance& s = scene_.spheres[sight.source];
-    const Vec4 p = view_.shadow_from_world * s.centre.cast<double>().homogeneous();
-    const float texels =
-        float(view_.shadow_size * view_.shadow_from_world.block<1, 3>(0, 0).norm());
+    const Vec3 x = s.centre.cast<double>();
+    const Vec4 p = view_.shadow_from_world * Vec4(x.x(), x.y(), x.z(), 1);
+    const float texels = float(view_.shadow_size * view_.shadow_from_world.row(0).head<3>().norm());
     return {float(p.x() * view_.shadow_size), float(p.y() * view_.shadow_size),
             s.radius * texels - 0.05f,        float(p.z()),
             s.radius * texels + 0.05f,        float(p.z())};

@@ -67,13 +67,10 @@ class VeilMaker {
     low_ = box.centre() - 0.5 * Vec3(side, side, box.extent().z());
     cells_per_metre_ = size_ / side;
     veil_.depth = std::max(box.extent().z(), 1e-6);
-    Mat4 m = Mat4::Identity();
     const Vec3 scale(1 / side, 1 / side, 1 / veil_.depth);
-    for (int k = 0; k < 3; ++k) {
-      m.block<1, 3>(k, 0) = scale[k] * axis_[k].transpose();
-      m(k, 3) = -scale[k] * low_[k];
-    }
-    veil_.veil_from_world = m;
+    const Mat3 axes =
+        Mat3::from_rows(scale[0] * axis_[0], scale[1] * axis_[1], scale[2] * axis_[2]);
+    veil_.veil_from_world = Mat4::affine(axes, -scale.cwiseProduct(low_));
     return true;
   }
 

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-Eigen::Vector4f level_colour(size_t level) {
+Vec4f level_colour(size_t level) {
   constexpr std::array<std::array<float, 3>, 8> colours{{{1.0f, 0.25f, 0.15f},
                                                          {1.0f, 0.65f, 0.1f},
                                                          {0.85f, 0.95f, 0.2f},
@@ -20,7 +20,7 @@ Eigen::Vector4f level_colour(size_t level) {
 }
 
 void draw_cells(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> ids,
-                double edge, const Eigen::Vector4f& colour, DebugDraw& out) {
+                double edge, const Vec4f& colour, DebugDraw& out) {
   std::vector<std::array<double, 3>> cells;
   for (const uint32_t id : ids) {
     const Vec3 lo = (proxies[id].bounds.min / edge).array().floor();

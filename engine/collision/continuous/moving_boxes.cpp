@@ -106,7 +106,7 @@ class BoxMarch {
   static void place(const MovingBox& box, double t, Mat3& axes, Vec3& arm) {
     const Motion& m = box.motion;
     axes = rotation(box, t) * box.half_extents.asDiagonal();
-    arm = integrate_rotation(m.start.q, m.omega, t)._transformVector(m.offset.x);
+    arm = integrate_rotation(m.start.q, m.omega, t) * m.offset.x;
   }
   static void set_axis(BoxMoment& m, int k, const Vec3& w, double sine) {
     const double along = w.dot(m.between);

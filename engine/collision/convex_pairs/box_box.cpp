@@ -33,13 +33,13 @@ struct Separation {
 /// axes.
 unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& C, const Vec3& da) {
   // several times the rounding of all that is summed
-  const Float4 rounding(float(2e-6 * (ha.sum() + hb.sum() + da.lpNorm<1>())));
+  const Float4 rounding(float(2e-6 * (ha.sum() + hb.sum() + da.cwiseAbs().sum())));
   const Float4 least2(float(least * std::abs(least)));
   const Float4 b = Float4::round(hb[0], hb[1], hb[2]);
   const Float4 b_next = b.shuffled<1, 2, 0, 3>(), b_last = b.shuffled<2, 0, 1, 3>();
   std::array<Float4, 3> c, abs_c;
   for (size_t i = 0; i < 3; ++i) {
-    const auto row = C.row(Eigen::Index(i));
+    const auto row = C.row(int(i));
     c[i] = Float4::round(row[0], row[1], row[2]);
     abs_c[i] = abs(c[i]);
   }
@@ -172,7 +172,7 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
   const Vec3 d = pair.pose_b.x - pair.pose_a.x;
   const Separation s = separate(ha, hb, RA, RB, d, pair.margin);
   if (s.apart) {
-    pair.found_apart(std::max(s.face, s.edge), ha.sum() + hb.sum() + d.lpNorm<1>());
+    pair.found_apart(std::max(s.face, s.edge), ha.sum() + hb.sum() + d.cwiseAbs().sum());
     return;
   }
   if (s.by_edges()) {

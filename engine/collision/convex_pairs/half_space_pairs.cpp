@@ -32,7 +32,7 @@ void collide_half_space_convex(const ShapePair& pair, std::vector<Manifold>& out
   const Vec3 down = pair.pose_b.inverse_direction(-ground.n);
   const double least = ground.height(pair.pose_b.point(b.support(down))) - r;
   if (least > pair.margin) {
-    pair.found_apart(least, pair.pose_b.x.lpNorm<1>() + b.bounding_radius());
+    pair.found_apart(least, pair.pose_b.x.cwiseAbs().sum() + b.bounding_radius());
     return;
   }
   ManifoldBuilder points;

@@ -59,8 +59,8 @@ std::vector<FeatureContact>& memory() {
 /// Whether nothing can be near; then the pair knows how far apart it is.
 bool apart(const ShapePair& pair, double distance) {
   if (distance <= pair.margin) return false;
-  pair.found_apart(distance,
-                   pair.pose_b.x.lpNorm<1>() + pair.a.bounding_radius() + pair.b.bounding_radius());
+  pair.found_apart(distance, pair.pose_b.x.cwiseAbs().sum() + pair.a.bounding_radius() +
+                                 pair.b.bounding_radius());
   return true;
 }
 

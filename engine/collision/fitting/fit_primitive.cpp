@@ -58,9 +58,7 @@ Mat3 frame_about(const Vec3& y) {
   int thin = 0;
   y.cwiseAbs().minCoeff(&thin);
   const Vec3 x = Vec3(Vec3::Unit(thin)).cross(y).normalized();
-  Mat3 out;
-  out << x, y, x.cross(y);
-  return out;
+  return Mat3::from_columns(x, y, x.cross(y));
 }
 
 /// Where fits begin: frames, and their axes without those that nearly repeat one.

@@ -77,7 +77,7 @@ class Difference {
   /// A length that all coordinates stay below: both reaches and the distance of the origins [m].
   double scale() const { return scale_; }
   /// Directions and points from and to the frame of the query.
-  Vec3 direction_out(const Plain3& d) const { return (A_.R * d.vec()).eval(); }
+  Vec3 direction_out(const Plain3& d) const { return A_.R * d.vec(); }
   Vec3 point_out(const Plain3& p) const { return A_.x + A_.R * p.vec(); }
   Plain3 direction_in(const Vec3& d) const { return Plain3::of(A_.R.transpose() * d); }
 

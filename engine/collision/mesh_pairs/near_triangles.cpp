@@ -55,7 +55,7 @@ class Walk {
         b_(B.s),
         R_(A.R.transpose() * B.R),
         x_(A.R.transpose() * (B.x - A.x)),
-        absolute_(R_.cwiseAbs().array() + 1e-14),
+        absolute_(R_.cwiseAbs() + Mat3::Constant(1e-14)),
         pairs_(pairs) {
     offset_ = R_ * b_.tree->origin() + x_ - a_.tree->origin();
     rounding_ = 1e-6 * (a_.size + b_.size);  // boxes are in single precision

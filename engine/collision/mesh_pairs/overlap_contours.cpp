@@ -96,7 +96,7 @@ class ContourFinder {
       if (!passes_inside(from.p[i], from.p[j], through)) continue;
       const double s = h[i] / (h[i] - h[j]);
       out_.nodes.push_back(
-          {of_b, edge, through.id, s, (from.p[i] + s * (from.p[j] - from.p[i])).eval(), h[i] > 0});
+          {of_b, edge, through.id, s, from.p[i] + s * (from.p[j] - from.p[i]), h[i] > 0});
     }
   }
 

@@ -82,7 +82,7 @@ std::string BoxShape::words() const {
   return fmt::format("box, {:.3g} × {:.3g} × {:.3g} m", size.x(), size.y(), size.z());
 }
 
-void BoxShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void BoxShape::outline(DebugDraw& out, const Vec4f& colour) const {
   for (int axis = 0; axis < 3; ++axis)
     for (int i = 0; i < 4; ++i) {
       Vec3 a = half_extents();

@@ -30,7 +30,7 @@ class BoxShape final : public PolyhedralShape<ConvexShape> {
     return nearest_on_box(half_extents(), p);
   }
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override;
   const VoronoiPolyhedron* voronoi() const override;
 

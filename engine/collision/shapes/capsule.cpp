@@ -63,7 +63,7 @@ std::string CapsuleShape::words() const {
   return fmt::format("capsule, {:.4g} × {:.4g} m", radius(), def().height);
 }
 
-void CapsuleShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void CapsuleShape::outline(DebugDraw& out, const Vec4f& colour) const {
   draw_round_outline(out, colour, radius(), half_height_, true);
 }
 

@@ -27,7 +27,7 @@ class CapsuleShape final : public ConvexShape {
   bool has_point(const SurfaceElement& element) const override;
   PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override;
 
  private:

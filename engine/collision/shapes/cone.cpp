@@ -58,7 +58,7 @@ class ConeShape final : public ConvexShape {
   std::string words() const override {
     return fmt::format("cone, {:.4g} × {:.4g} m", r_, 2 * half_);
   }
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   DrawnSurface drawn_surface() const override;
 
  private:
@@ -183,7 +183,7 @@ PolyhedronFeature ConeShape::feature_at(const Vec3& p, uint32_t) const {
   return {FeatureKind::face, 0};
 }
 
-void ConeShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void ConeShape::outline(DebugDraw& out, const Vec4f& colour) const {
   const Vec3 x(r_, 0, 0), z(0, 0, r_), base(0, -half_, 0);
   draw_ring(out, colour, base, x, z);
   for (const Vec3& side : {x, z, Vec3(-x), Vec3(-z)}) out.line(base + side, tip(), colour);

@@ -121,7 +121,7 @@ std::string ConvexHullShape::words() const {
   return fmt::format("convex hull of {} points", def().mesh->vertices.size());
 }
 
-void ConvexHullShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void ConvexHullShape::outline(DebugDraw& out, const Vec4f& colour) const {
   for (const PolyhedronEdge& e : polyhedron_.edges)
     out.line(polyhedron_.vertices[e.vertices[0]], polyhedron_.vertices[e.vertices[1]], colour);
 }

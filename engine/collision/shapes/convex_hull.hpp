@@ -22,7 +22,7 @@ class ConvexHullShape final : public PolyhedralShape<ConvexShape> {
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   std::span<const Vec3> corners() const override { return polyhedron_.vertices; }
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   DrawnSurface drawn_surface() const override;
   const VoronoiPolyhedron* voronoi() const override;
 

@@ -122,7 +122,7 @@ std::string CylinderShape::words() const {
   return fmt::format("cylinder, {:.4g} × {:.4g} m", radius(), def().height);
 }
 
-void CylinderShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void CylinderShape::outline(DebugDraw& out, const Vec4f& colour) const {
   draw_round_outline(out, colour, radius(), half_height_, false);
 }
 

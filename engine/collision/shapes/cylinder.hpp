@@ -28,7 +28,7 @@ class CylinderShape final : public ConvexShape {
   double rounding_along(const Vec3& outward) const override;
   PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override;
 
  private:

@@ -69,7 +69,7 @@ std::string EllipsoidShape::words() const {
   return fmt::format("ellipsoid, {:.3g} × {:.3g} × {:.3g} m", size.x(), size.y(), size.z());
 }
 
-void EllipsoidShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void EllipsoidShape::outline(DebugDraw& out, const Vec4f& colour) const {
   for (int k = 0; k < 3; ++k)
     draw_ring(out, colour, Vec3::Zero(), semi_axes()[k] * Vec3::Unit(k),
               semi_axes()[(k + 1) % 3] * Vec3::Unit((k + 1) % 3));

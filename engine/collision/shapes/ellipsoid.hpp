@@ -30,7 +30,7 @@ class EllipsoidShape final : public ConvexShape {
     return mean_radius_of_curvature(semi_axes(), outward);
   }
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override;
 
  private:

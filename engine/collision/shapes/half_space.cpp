@@ -51,7 +51,7 @@ SurfaceElement HalfSpaceShape::border_at(const Vec3& point, const Vec3&) const {
 std::string HalfSpaceShape::words() const {
   return "half-space";
 }
-void HalfSpaceShape::outline(DebugDraw&, const Eigen::Vector4f&) const {}
+void HalfSpaceShape::outline(DebugDraw&, const Vec4f&) const {}
 
 extern const ShapeEntry half_space_entry;
 constinit const ShapeEntry half_space_entry{

@@ -18,7 +18,7 @@ class HalfSpaceShape final : public Shape {
   SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;
   SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override { return {ShapeDrawing::Kind::plane, Vec3::Ones()}; }
 
  private:

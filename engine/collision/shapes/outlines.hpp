@@ -5,7 +5,7 @@ namespace tumble {
 
 // What outlines of shapes are made of, in the frame of the shape.
 
-using OutlineColour = Eigen::Vector4f;
+using OutlineColour = Vec4f;
 
 /// An arc about `centre` from u towards v [rad]; an ellipse where these differ in length.
 void draw_arc(DebugDraw& out, const OutlineColour& colour, const Vec3& centre, const Vec3& u,

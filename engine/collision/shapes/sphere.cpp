@@ -52,7 +52,7 @@ std::string SphereShape::words() const {
   return fmt::format("sphere, radius {:.4g} m", radius());
 }
 
-void SphereShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void SphereShape::outline(DebugDraw& out, const Vec4f& colour) const {
   draw_round_outline(out, colour, radius(), 0, true);
 }
 

@@ -24,7 +24,7 @@ class SphereShape final : public ConvexShape {
   bool has_point(const SurfaceElement&) const override { return true; }
   PolyhedronFeature feature_at(const Vec3& point, uint32_t triangle) const override;
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   ShapeDrawing drawing() const override;
 
  private:

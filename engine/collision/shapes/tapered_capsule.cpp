@@ -41,7 +41,7 @@ class TaperedCapsuleShape final : public ConvexShape {
   std::string words() const override {
     return fmt::format("tapered capsule, {:.4g} and {:.4g} × {:.4g} m", r_[0], r_[1], 2 * half_);
   }
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   DrawnSurface drawn_surface() const override;
 
  private:
@@ -197,7 +197,7 @@ PolyhedronFeature TaperedCapsuleShape::feature_at(const Vec3& p, uint32_t) const
   return {FeatureKind::vertex, 2 * p.y() > seam_y(0) + seam_y(1) ? 1u : 0u};
 }
 
-void TaperedCapsuleShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void TaperedCapsuleShape::outline(DebugDraw& out, const Vec4f& colour) const {
   const Vec3 x = Vec3::UnitX(), z = Vec3::UnitZ();
   for (const int i : {0, 1})
     draw_ring(out, colour, {0, seam_y(i), 0}, seam_radius(i) * x, seam_radius(i) * z);

@@ -63,7 +63,7 @@ std::string TriangleMeshShape::words() const {
   return fmt::format("mesh, {} triangles", def().mesh->triangles.size());
 }
 
-void TriangleMeshShape::outline(DebugDraw& out, const Eigen::Vector4f& colour) const {
+void TriangleMeshShape::outline(DebugDraw& out, const Vec4f& colour) const {
   draw_edges(out, colour, *def().mesh);
 }
 

@@ -20,7 +20,7 @@ class TriangleMeshShape : public PolyhedralShape<Shape> {
                                  double t_max) const override;
   double least_thickness() const override { return surface().min_thickness; }
   std::string words() const override;
-  void outline(DebugDraw& out, const Eigen::Vector4f& colour) const override;
+  void outline(DebugDraw& out, const Vec4f& colour) const override;
   DrawnSurface drawn_surface() const override;
 
  protected:

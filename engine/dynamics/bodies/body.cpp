@@ -245,7 +245,7 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   }
   if (body.type != BodyType::fixed) body.inner_radius = inner_radius_of(body.shapes);
   const Quat q = unit(def.pose.q);
-  body.pose = {def.pose.x + q._transformVector(body.centre_body), q};
+  body.pose = {def.pose.x + q * body.centre_body, q};
   return body;
 }
 

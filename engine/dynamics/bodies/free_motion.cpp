@@ -19,7 +19,7 @@ Vec3 three_of(std::span<const double> y, size_t at) {
 }
 
 void put_three(const Vec3& v, std::span<double> y, size_t at) {
-  for (size_t k = 0; k < 3; ++k) y[at + k] = v[Eigen::Index(k)];
+  for (size_t k = 0; k < 3; ++k) y[at + k] = v[int(k)];
 }
 
 Status check_constants(const MotionConstants& c, size_t index) {
@@ -148,7 +148,7 @@ void FreeMotion::allowed_errors(const ode::Tolerance& tolerance, std::span<const
     const size_t at = i * stride;
     const double mass = constants_[i].mass;
     // The least moment of inertia, or less.
-    const double least = 1 / inverse_inertia_[i].cwiseAbs().colwise().sum().maxCoeff();
+    const double least = 1 / (inverse_inertia_[i].cwiseAbs() * Vec3::Ones()).maxCoeff();
     const double position = tolerance.position + tolerance.relative * three_of(y, at).norm();
     const double linear =
         mass * tolerance.position / second + tolerance.relative * three_of(y, at + 7).norm();

@@ -42,7 +42,7 @@ void rotate_slender(const SlenderInertia& inertia, Quat& q, const Vec3& L, doubl
   Quat p = q * inertia.axes;
   // Turns about one principal axis, at the rate of that part of the energy.
   const auto about = [&](const Vec3& axis, double inverse, double step) {
-    const double momentum = L.dot(p._transformVector(axis));
+    const double momentum = L.dot(p * axis);
     p = p * axis_angle(axis, inverse * momentum * step);
   };
   for (int i = 0; i < n; ++i) {

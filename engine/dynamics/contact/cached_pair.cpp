@@ -16,7 +16,7 @@ struct TwoPoses {
         large((a.shape_radius < b.shape_radius ? b : a).shape_pose) {}
 
   /// The smaller shape's place and orientation, seen from the larger.
-  Vec3 place() const { return large.q.conjugate()._transformVector(small.x - large.x); }
+  Vec3 place() const { return large.q.conjugate() * (small.x - large.x); }
   Quat orientation() const { return large.q.conjugate() * small.q; }
 };
 

@@ -11,8 +11,8 @@ void CauseEffect::write(std::span<double> y) const {
   y[0] = work;
   y[1] = lost;
   for (size_t k = 0; k < 3; ++k) {
-    y[2 + k] = momentum[Eigen::Index(k)];
-    y[5 + k] = angular_momentum[Eigen::Index(k)];
+    y[2 + k] = momentum[int(k)];
+    y[5 + k] = angular_momentum[int(k)];
   }
 }
 

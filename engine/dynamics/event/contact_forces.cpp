@@ -4,6 +4,7 @@
 #include "engine/core/text.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
+#include "engine/dynamics/rows/delassus.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/rotation.hpp"
 

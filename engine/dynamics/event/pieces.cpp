@@ -68,7 +68,7 @@ class ReachBox {
  public:
   ReachBox(const Shape& convex, const Pose& in_mesh, double reach)
       : R_(in_mesh.q.toRotationMatrix()),
-        absolute_(R_.cwiseAbs().array() + tolerances::axis_rounding) {
+        absolute_(R_.cwiseAbs() + Mat3::Constant(tolerances::axis_rounding)) {
     const Aabb own = convex.bounds(Pose{}).inflated(reach);
     centre_ = in_mesh.point(own.centre());
     half_ = 0.5 * own.extent();

@@ -4,6 +4,7 @@
 #include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
+#include "engine/dynamics/rows/delassus.hpp"
 #include "engine/math/lcp/blocks/block_least.hpp"
 
 #include <cmath>

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 namespace tumble {
 
 void apply(const LinearDragDef& def, ForceContext& context) {
@@ -44,7 +42,7 @@ void apply(const QuadraticDragDef& def, ForceContext& context) {
     Vec3 omega = b.omega;
     if (h > 0) {
       const Mat3 inertia = b.inertia_world();
-      omega = (inertia + h * damping * Mat3::Identity()).llt().solve(inertia * b.omega);
+      omega = (inertia + h * damping * Mat3::Identity()).inverse() * (inertia * b.omega);
     }
     b.torque -= damping * omega;
   });

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
-
 namespace tumble {
 
 namespace {

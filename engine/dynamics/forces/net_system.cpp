@@ -1,12 +1,12 @@
 #include "engine/dynamics/forces/net_system.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/math/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace tumble {
 namespace {
@@ -425,8 +425,8 @@ void NetSystem::take_rigid_motion(std::span<const Vec3> left, std::vector<Vec3>&
                  short_of * left[blocks.turns]) /
                 net_->h;
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(inertia);
-  const Mat3& R = axes.eigenvectors();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(dense(inertia));
+  const Mat3 R = small_matrix(axes.eigenvectors());
   Vec3 spin = R.transpose() * moment;
   // A straight rope has no moment along itself, and no inertia but rounding.
   constexpr double no_inertia = 1e-12;

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/net_rows.hpp"
 #include "engine/dynamics/forces/net_system.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <cmath>
@@ -84,7 +85,8 @@ class NetSolver {
       whole_of_.push_back(whole_.size());
       blocks_.push_back(node.mass * Mat3::Identity());
       inverse_inertia_.push_back(node.turns ? Mat3(node.inertia.inverse()) : Mat3(Mat3::Zero()));
-      if (node.turns) whole_.emplace_back(Mat6::Zero()).bottomRightCorner<3, 3>() = node.inertia;
+      if (node.turns)
+        whole_.emplace_back(Mat6::Zero()).bottomRightCorner<3, 3>() = dense(node.inertia);
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
       add_block(net_->ties[i].a, rows_[i], rows_[i].turn_a);
@@ -93,10 +95,10 @@ class NetSolver {
     for (size_t k = 0; k < net_->nodes.size(); ++k) {
       if (net_->nodes[k].turns) {
         Mat6& block = whole_[whole_of_[k]];
-        block.topLeftCorner<3, 3>() = blocks_[k];
+        block.topLeftCorner<3, 3>() = dense(blocks_[k]);
         block = block.llt().solve(Mat6::Identity()).eval();
       } else {
-        blocks_[k] = blocks_[k].inverse().eval();
+        blocks_[k] = blocks_[k].inverse();
       }
     }
   }
@@ -108,18 +110,18 @@ class NetSolver {
     if (!net_->nodes[end.node].turns) return;
     const Mat3 arm = skew(end.arm), arm_E = arm * E;
     Mat6& block = whole_[whole_of_[end.node]];
-    block.bottomLeftCorner<3, 3>() += arm_E;
-    block.topRightCorner<3, 3>() += arm_E.transpose();
-    block.bottomRightCorner<3, 3>() -= arm_E * arm;
-    block.bottomRightCorner<3, 3>() += net_->h * net_->h * turn * Mat3::Identity();
+    block.bottomLeftCorner<3, 3>() += dense(arm_E);
+    block.topRightCorner<3, 3>() += dense(arm_E).transpose();
+    block.bottomRightCorner<3, 3>() -= dense(arm_E * arm);
+    block.bottomRightCorner<3, 3>() += net_->h * net_->h * turn * Eigen::Matrix3d::Identity();
   }
 
   void right_hand_side(Eigen::VectorXd& b) const {
     b.resize(dofs_);
     for (size_t k = 0; k < net_->nodes.size(); ++k) {
       const SpringNet::Node& node = net_->nodes[k];
-      b.segment<3>(first_[k]) = node.mass * node.dv_free;
-      if (node.turns) b.segment<3>(first_[k] + 3) = node.inertia * node.domega_free;
+      b.segment<3>(first_[k]) = node.mass * dense(node.dv_free);
+      if (node.turns) b.segment<3>(first_[k] + 3) = dense(node.inertia) * dense(node.domega_free);
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
       const SpringNet::Tie& tie = net_->ties[i];
@@ -134,7 +136,8 @@ class NetSolver {
     for (size_t k = 0; k < net_->nodes.size(); ++k) {
       const SpringNet::Node& node = net_->nodes[k];
       out.segment<3>(first_[k]) = node.mass * x.segment<3>(first_[k]);
-      if (node.turns) out.segment<3>(first_[k] + 3) = node.inertia * x.segment<3>(first_[k] + 3);
+      if (node.turns)
+        out.segment<3>(first_[k] + 3) = dense(node.inertia) * x.segment<3>(first_[k] + 3);
     }
     for (size_t i = 0; i < rows_.size(); ++i) {
       const SpringNet::Tie& tie = net_->ties[i];
@@ -149,12 +152,12 @@ class NetSolver {
 
   Vec3 velocity(const SpringNet::End& end, const Eigen::VectorXd& x) const {
     if (end.node == SpringNet::fixed) return Vec3::Zero();
-    const Vec3 v = x.segment<3>(first_[end.node]);
+    const Vec3 v = small_vector(x.segment<3>(first_[end.node]));
     if (!net_->nodes[end.node].turns) return v;
     return v + turn_of(end, x).cross(end.arm);
   }
   Vec3 turn_of(const SpringNet::End& end, const Eigen::VectorXd& x) const {
-    return x.segment<3>(first_[end.node] + 3);
+    return small_vector(x.segment<3>(first_[end.node] + 3));
   }
   Vec3 omega_of(const SpringNet::End& end) const {
     return end.node == SpringNet::fixed ? Vec3(Vec3::Zero()) : net_->nodes[end.node].omega;
@@ -164,14 +167,15 @@ class NetSolver {
   }
   void push(const SpringNet::End& end, const Vec3& impulse, Eigen::VectorXd& out) const {
     if (end.node == SpringNet::fixed) return;
-    out.segment<3>(first_[end.node]) += impulse;
-    if (net_->nodes[end.node].turns) out.segment<3>(first_[end.node] + 3) += end.arm.cross(impulse);
+    out.segment<3>(first_[end.node]) += dense(impulse);
+    if (net_->nodes[end.node].turns)
+      out.segment<3>(first_[end.node] + 3) += dense(end.arm.cross(impulse));
   }
   /// Subtracts what the stiffness against turning does to the moments, over `time` squared.
   void turn(const SpringNet::End& end, double stiffness, const Vec3& omega, double time2,
             Eigen::VectorXd& out) const {
     if (end.node == SpringNet::fixed || !net_->nodes[end.node].turns || stiffness == 0) return;
-    out.segment<3>(first_[end.node] + 3) -= time2 * stiffness * across_arm(end.arm, omega);
+    out.segment<3>(first_[end.node] + 3) -= time2 * stiffness * dense(across_arm(end.arm, omega));
   }
   Vec3 turned(const SpringNet::End& end, double stiffness) const {
     if (end.node == SpringNet::fixed || !net_->nodes[end.node].turns || stiffness == 0)
@@ -186,7 +190,7 @@ class NetSolver {
       if (net_->nodes[k].turns)
         out.segment<6>(first_[k]) = whole_[whole_of_[k]] * r.segment<6>(first_[k]);
       else
-        out.segment<3>(first_[k]) = blocks_[k] * r.segment<3>(first_[k]);
+        out.segment<3>(first_[k]) = dense(blocks_[k]) * r.segment<3>(first_[k]);
     }
   }
   /// SpringNet::Report::residual.
@@ -197,7 +201,8 @@ class NetSolver {
       left += r.segment<3>(first_[k]).squaredNorm() / node.mass;
       all += node.mass * change_.segment<3>(first_[k]).squaredNorm();
       if (!node.turns) continue;
-      const Vec3 moment = r.segment<3>(first_[k] + 3), spin = change_.segment<3>(first_[k] + 3);
+      const Vec3 moment = small_vector(r.segment<3>(first_[k] + 3)),
+                 spin = small_vector(change_.segment<3>(first_[k] + 3));
       left += moment.dot(inverse_inertia_[k] * moment);
       all += spin.dot(node.inertia * spin);
     }

@@ -411,8 +411,8 @@ void Articulation::apply_change(std::span<double> change, std::span<DofBlock> bl
   solve(change);
   const auto add = [](DofBlock& block, double share, const Answer& motion) {
     for (size_t k = 0; k < 3; ++k) {
-      block.v[Eigen::Index(k)] += share * motion[k];
-      block.omega[Eigen::Index(k)] += share * motion[3 + k];
+      block.v[int(k)] += share * motion[k];
+      block.omega[int(k)] += share * motion[3 + k];
     }
   };
   for (const uint32_t block : tree_blocks_) add(blocks[block], 1, trees_.motion(block));

@@ -20,7 +20,7 @@ inline Vec3 angular_of(const double* six) {
   return {six[3], six[4], six[5]};
 }
 inline void put(double* six, const Vec3& linear, const Vec3& angular) {
-  for (Eigen::Index i = 0; i < 3; ++i) six[i] = linear[i], six[3 + i] = angular[i];
+  for (int i = 0; i < 3; ++i) six[i] = linear[i], six[3 + i] = angular[i];
 }
 
 /// out += m v

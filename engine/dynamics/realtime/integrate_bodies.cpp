@@ -23,11 +23,11 @@ Quat turned(const Quat& q, const Vec3& omega, double h) {
 }
 
 Vec3 angular_velocity(const RigidBody& body, const Quat& q, const Vec3& L) {
-  return q._transformVector(body.inverse_inertia_body * q.conjugate()._transformVector(L));
+  return q * (body.inverse_inertia_body * (q.conjugate() * L));
 }
 
 Vec3 angular_momentum(const RigidBody& body, const Quat& q, const Vec3& omega) {
-  return q._transformVector(body.inertia_body * q.conjugate()._transformVector(omega));
+  return q * (body.inertia_body * (q.conjugate() * omega));
 }
 
 }  // namespace

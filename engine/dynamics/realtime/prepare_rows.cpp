@@ -49,8 +49,7 @@ void set_masses(const SolverIsland& island, const ContactRow& row, PointRow& p) 
 
 /// Of a row that resists turning, its axes being set.
 void set_turning_masses(const SolverIsland& island, ContactRow& row) {
-  Mat3 axes;
-  axes << row.t1, row.t2, row.n;
+  const Mat3 axes = Mat3::from_columns(row.t1, row.t2, row.n);
   const Mat3 k = island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia;
   row.turning.set_masses(axes.transpose() * k * axes);
 }

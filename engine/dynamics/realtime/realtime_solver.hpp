@@ -4,6 +4,7 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
+#include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/joints/joint_push.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
 

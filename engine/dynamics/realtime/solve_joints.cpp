@@ -24,7 +24,7 @@ JointSide side_now(const SolverContext& c, const SolverIsland& island, uint32_t 
   s.x = c.bodies[slot].pose.x + body.dx;
   s.v = body.v;
   s.omega = body.w;
-  s.arm = q._transformVector(frame.x);
+  s.arm = q * frame.x;
   if (!uses_axes) return s;
   s.q = q * frame.q;
   s.axes = s.q.toRotationMatrix();

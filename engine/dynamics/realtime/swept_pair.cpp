@@ -103,7 +103,7 @@ class Sweep {
   /// How fast the points that meet come together along the normal [m/s].
   double approach(const TimeOfContact& hit) const {
     const auto velocity = [&](const Motion& m, const Vec3& x) {
-      return (m.velocity + m.omega.cross(x - m.carrier(t_).x)).eval();
+      return (m.velocity + m.omega.cross(x - m.carrier(t_).x));
     };
     return (moves_a() ? hit.normal.dot(velocity(p_.motion_a, hit.on_a)) : 0) -
            (moves_b() ? hit.normal.dot(velocity(p_.motion_b, hit.on_b)) : 0);
@@ -167,7 +167,7 @@ void stop_approach(RigidBody& a, RigidBody& b, const Vec3& at, const Vec3& norma
   if (!(speed > 0)) return;
   const auto gives_way = [](const RigidBody& body) { return body.dynamic() && body.awake(); };
   const auto turn = [&](const RigidBody& body) {  // of a unit impulse
-    return (body.inverse_inertia_world() * (at - body.pose.x).cross(normal)).eval();
+    return (body.inverse_inertia_world() * (at - body.pose.x).cross(normal));
   };
   double mobility = 0;
   for (const RigidBody* body : {&a, &b})

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <span>
 
-#include <Eigen/Core>
-
 namespace tumble {
 
 /// The world, a fixed body: no degrees of freedom.
@@ -58,8 +56,5 @@ inline double row_velocity(const Row& row, std::span<const DofBlock> blocks) {
 }
 /// v += M^-1 J^T impulse.
 void apply_row(const Row& row, double impulse, std::span<DofBlock> blocks);
-
-/// The Delassus matrix J M^-1 J^T: symmetric, positive semi-definite.
-Eigen::MatrixXd delassus(std::span<const Row> rows, std::span<const DofBlock> blocks);
 
 }  // namespace tumble

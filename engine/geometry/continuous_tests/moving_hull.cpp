@@ -110,7 +110,7 @@ class HullMarch {
       edges = {c[0] - c[1], c[1] - c[2], c[2] - c[0]};
       edge_count = 3;
       const TrianglePoint near = closest_on_triangle(Vec3::Zero(), c[0], c[1], c[2]);
-      m.weights.head<3>() = near.barycentric;
+      for (int k = 0; k < 3; ++k) m.weights[k] = near.barycentric[k];
       normal = edges[0].cross(edges[1]);
     } else {
       edges = {c[2] - c[0], c[0] - c[1], Vec3::Zero()};

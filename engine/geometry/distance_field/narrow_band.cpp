@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Core>
+
 namespace tumble {
 namespace {
 

@@ -65,8 +65,8 @@ struct AabbKind {
 
   template <class Tree>
   void bound(const Tree& tree, const AabbVolume& v, NodeBound& out) const {
-    const Vec3 low = Eigen::Map<const Vec3f>(v.min.data()).cast<double>();
-    const Vec3 high = Eigen::Map<const Vec3f>(v.max.data()).cast<double>();
+    const Vec3 low = Vec3f(v.min.data()).cast<double>();
+    const Vec3 high = Vec3f(v.max.data()).cast<double>();
     set_box(out, tree.origin() + 0.5 * (low + high), (0.5 * (high - low)).asDiagonal());
   }
 

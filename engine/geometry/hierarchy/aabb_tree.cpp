@@ -55,8 +55,8 @@ void AabbKind::fit(const FitInput& in, std::vector<TreeNode<AabbVolume>>& nodes)
 
 Aabb node_box(const AabbTree& tree, uint32_t node) {
   const auto& n = tree.nodes()[node];
-  return {tree.origin() + Eigen::Map<const Vec3f>(n.min.data()).cast<double>(),
-          tree.origin() + Eigen::Map<const Vec3f>(n.max.data()).cast<double>()};
+  return {tree.origin() + Vec3f(n.min.data()).cast<double>(),
+          tree.origin() + Vec3f(n.max.data()).cast<double>()};
 }
 
 void box_pairs(const AabbTree& ta, const AabbTree& tb, const Pose& b_in_a, double margin,

@@ -7,15 +7,14 @@ namespace tumble {
 namespace {
 
 /// A bright colour of the hue 0..1.
-Eigen::Vector4f hue_colour(double hue) {
+Vec4f hue_colour(double hue) {
   const auto part = [hue](double shift) {
     const double h = hue + shift - std::floor(hue + shift);
     return float(std::clamp(std::fabs(6 * h - 3) - 1, 0.0, 1.0));
   };
   // Mixed with white, so that no hue is darker than the others by much.
-  const Eigen::Vector4f pure(part(0), part(2.0 / 3), part(1.0 / 3), 1);
-  return Eigen::Vector4f(0.12f, 0.12f, 0.12f, 0) +
-         Eigen::Vector4f(0.88f, 0.88f, 0.88f, 1).cwiseProduct(pure);
+  const Vec4f pure(part(0), part(2.0 / 3), part(1.0 / 3), 1);
+  return Vec4f(0.12f, 0.12f, 0.12f, 0) + Vec4f(0.88f, 0.88f, 0.88f, 1).cwiseProduct(pure);
 }
 
 }  // namespace
@@ -30,7 +29,7 @@ std::vector<NodeBound> level_bounds(const Hierarchy& hierarchy, int level) {
   return out;
 }
 
-Eigen::Vector4f node_colour(const Hierarchy& hierarchy, const NodeBound& bound) {
+Vec4f node_colour(const Hierarchy& hierarchy, const NodeBound& bound) {
   const auto order = hierarchy.triangle_order();
   if (order.empty()) return hue_colour(0);
   const double first = double(bound.triangles.data() - order.data());

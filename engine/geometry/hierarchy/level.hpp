@@ -14,7 +14,7 @@ void draw_level(const Hierarchy& hierarchy, int level, const Pose& pose, DebugDr
 
 /// The colour of a volume: once around the hues in the order in which the tree holds the triangles
 /// of the mesh, so that a node has a mean hue of its children. Linear, opaque.
-Eigen::Vector4f node_colour(const Hierarchy& hierarchy, const NodeBound& bound);
+Vec4f node_colour(const Hierarchy& hierarchy, const NodeBound& bound);
 
 /// How much room the volumes take; less is better.
 struct HierarchyRoom {

@@ -112,7 +112,7 @@ ConvexMeasure hull_measure(const ConvexPolyhedron& p) {
 
 struct BoundWires {
   const Pose& pose;
-  const Eigen::Vector4f& colour;
+  const Vec4f& colour;
   DebugDraw& out;
   void line(const Vec3& a, const Vec3& b) const { out.line(pose.point(a), pose.point(b), colour); }
 };
@@ -186,8 +186,7 @@ ConvexMeasure measure(const NodeBound& bound) {
           m.surface + r * (2 * m.curvature + 4 * pi * r), m.curvature + 4 * pi * r};
 }
 
-void draw_bound(const NodeBound& bound, const Pose& pose, const Eigen::Vector4f& colour,
-                DebugDraw& out) {
+void draw_bound(const NodeBound& bound, const Pose& pose, const Vec4f& colour, DebugDraw& out) {
   if (bound.points.empty()) return;
   const BoundWires w{pose, colour, out};
   switch (bound.form) {

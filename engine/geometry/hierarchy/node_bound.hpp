@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/core/debug_draw.hpp"
+#include "engine/geometry/debug_draw.hpp"
 #include "engine/math/types.hpp"
 
 #include <cstdint>
@@ -38,7 +38,6 @@ ConvexMeasure measure(const NodeBound& bound);
 
 /// Draws the volume as wires on its surface: the edges of a box, three great circles of a sphere,
 /// the edges of a hull, their ends moved out to the rounded corners.
-void draw_bound(const NodeBound& bound, const Pose& pose, const Eigen::Vector4f& colour,
-                DebugDraw& out);
+void draw_bound(const NodeBound& bound, const Pose& pose, const Vec4f& colour, DebugDraw& out);
 
 }  // namespace tumble

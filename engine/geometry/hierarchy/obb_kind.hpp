@@ -20,18 +20,17 @@ struct ObbKind {
 
   template <class Tree>
   void bound(const Tree& tree, const ObbVolume& v, NodeBound& out) const {
-    const Mat3 axes =
-        Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(v.axes.data()).cast<double>();
-    const Vec3 half = Eigen::Map<const Vec3f>(v.half.data()).cast<double>();
-    set_box(out, tree.origin() + Eigen::Map<const Vec3f>(v.centre.data()).cast<double>(),
-            axes * half.asDiagonal());
+    const float* row = v.axes.data();
+    const Mat3 axes = Mat3f::from_rows(Vec3f(row), Vec3f(row + 3), Vec3f(row + 6)).cast<double>();
+    const Vec3 half = Vec3f(v.half.data()).cast<double>();
+    set_box(out, tree.origin() + Vec3f(v.centre.data()).cast<double>(), axes * half.asDiagonal());
   }
 
   static float size_of(const ObbVolume& v) { return v.half[0] + v.half[1] + v.half[2]; }
   /// Distance from p of the furthest point, rounded up.
   static double furthest(const ObbVolume& v, const Vec3& p) {
-    const Vec3 centre = Eigen::Map<const Vec3f>(v.centre.data()).cast<double>();
-    const Vec3 half = Eigen::Map<const Vec3f>(v.half.data()).cast<double>();
+    const Vec3 centre = Vec3f(v.centre.data()).cast<double>();
+    const Vec3 half = Vec3f(v.half.data()).cast<double>();
     return ((centre - p).norm() + half.norm()) * (1 + 1e-6);
   }
 

@@ -79,12 +79,8 @@ double extent_of(const TriangleCorners& t) {
 }
 
 bool boxes_within(const TriangleCorners& a, const TriangleCorners& b, double margin) {
-  const auto low = [](const TriangleCorners& t) {
-    return t[0].cwiseMin(t[1]).cwiseMin(t[2]).eval();
-  };
-  const auto high = [](const TriangleCorners& t) {
-    return t[0].cwiseMax(t[1]).cwiseMax(t[2]).eval();
-  };
+  const auto low = [](const TriangleCorners& t) { return t[0].cwiseMin(t[1]).cwiseMin(t[2]); };
+  const auto high = [](const TriangleCorners& t) { return t[0].cwiseMax(t[1]).cwiseMax(t[2]); };
   return ((low(b) - high(a)).array() <= margin).all() &&
          ((low(a) - high(b)).array() <= margin).all();
 }

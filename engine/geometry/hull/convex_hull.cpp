@@ -125,7 +125,9 @@ Result<ConvexHull> convex_hull(std::span<const Vec3> points, const HullOptions& 
   };
   if (std::none_of(points.begin(), points.end(), has_negligible)) return hull_of(points, tolerance);
   std::vector<Vec3> rounded(points.begin(), points.end());
-  for (Vec3& p : rounded) p = (p.array().abs() < negligible).select(0, p);
+  for (Vec3& p : rounded)
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(p[k]) < negligible) p[k] = 0;
   auto hull = hull_of(rounded, tolerance);
   if (hull) hull->polyhedron.vertices = pick(points, hull->source);
   return hull;

@@ -38,7 +38,7 @@ Result<SparseField> sample_field(const std::function<double(const Vec3&)>& f, co
   out.spacing = spacing;
   if (box.empty()) return out;
   constexpr int edge = SparseField::edge;
-  const Eigen::Array3d first = (box.min / (spacing * edge)).array().floor(),
+  const Array3<double> first = (box.min / (spacing * edge)).array().floor(),
                        last = (box.max / (spacing * edge)).array().floor();
   const double count = (last - first + 1).prod();
   if (count > double(most_bricks))
@@ -46,7 +46,7 @@ Result<SparseField> sample_field(const std::function<double(const Vec3&)>& f, co
                  fmt::format("{} bricks of cells of {} m are too many", count, spacing),
                  {},
                  fmt::format("{} m would do", 1.1 * spacing * std::cbrt(count / most_bricks))};
-  const Eigen::Array3i a = first.cast<int>(), b = last.cast<int>();
+  const Array3<int> a = first.cast<int>(), b = last.cast<int>();
   for (int i = a[0]; i <= b[0]; ++i)
     for (int j = a[1]; j <= b[1]; ++j)
       for (int k = a[2]; k <= b[2]; ++k) {

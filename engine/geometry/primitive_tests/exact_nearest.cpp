@@ -128,7 +128,8 @@ std::vector<ExactFeature> features_of(const OrientedBox& box) {
         for (int k = 0; k < 3; ++k) {
           f.corner[size_t(k) + 1] = arm(k, low >> k & 1 ? -1 : 1);
           if (!(along >> k & 1)) continue;
-          (first ? f.u : f.v) = {arm(k, 1), arm(k, -1)};
+          std::array<Vec3, 2>& side = first ? f.u : f.v;
+          side = {arm(k, 1), arm(k, -1)};
           first = false;
         }
         out.push_back(f);

@@ -24,13 +24,13 @@ double reach(const OrientedBox& b, const Vec3& p, const Vec3& direction) {
 
 /// Largest coordinate, for bounds of rounding.
 double magnitude(const Segment& s) {
-  return std::max(s.a.lpNorm<Eigen::Infinity>(), s.b.lpNorm<Eigen::Infinity>());
+  return std::max(s.a.cwiseAbs().maxCoeff(), s.b.cwiseAbs().maxCoeff());
 }
 double magnitude(const Triangle3& t) {
-  return std::max(magnitude(Segment{t[0], t[1]}), t[2].lpNorm<Eigen::Infinity>());
+  return std::max(magnitude(Segment{t[0], t[1]}), t[2].cwiseAbs().maxCoeff());
 }
 double magnitude(const OrientedBox& b) {
-  return b.centre.lpNorm<Eigen::Infinity>() + b.half_axes.cwiseAbs().sum();
+  return b.centre.cwiseAbs().maxCoeff() + b.half_axes.cwiseAbs().sum();
 }
 
 Vec3 nearest(const Vec3& p, const Segment& s) {
@@ -89,7 +89,7 @@ bool meets(const Sphere& sphere, const Shape& shape) {
   // below; 64 u of the largest coordinate covers the rounding of either.
   const Vec3 apart = p - nearest(p, shape);
   const double distance = apart.norm();
-  const double doubt = 64 * Estimate::u * (p.lpNorm<Eigen::Infinity>() + r + magnitude(shape));
+  const double doubt = 64 * Estimate::u * (p.cwiseAbs().maxCoeff() + r + magnitude(shape));
   if (distance + doubt < r) return true;
   if (distance > 0 && reach(shape, p, apart / distance) < -(r + doubt)) return false;
   ++exact_fallbacks();
@@ -108,7 +108,7 @@ PrimitiveContact contact_of(const Sphere& sphere, const Shape& shape) {
     out.depth = sphere.radius + inside.depth;
   } else {
     Vec3 offset = p - nearest(p, shape);
-    if (offset.norm() < 1e-3 * (p.lpNorm<Eigen::Infinity>() + magnitude(shape))) {
+    if (offset.norm() < 1e-3 * (p.cwiseAbs().maxCoeff() + magnitude(shape))) {
       offset = accurate_offset(p, features_of(shape));
     }
     const double distance = offset.stableNorm();

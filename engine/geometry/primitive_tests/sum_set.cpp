@@ -171,14 +171,19 @@ Vec3 accurate_cross(const ExactVector& a, const ExactVector& b) {
   return out;
 }
 
+/// What the offset of the set takes twice from one of the two.
+std::array<Vec3, 2>& twice(SumSet& set, Part part) {
+  return part == Part::a ? set.twice_a : set.twice_b;
+}
+
 }  // namespace
 
 void add(SumSet& set, Part part, const Vec3& point) {
-  (part == Part::a ? set.twice_a : set.twice_b) = {point, point};
+  twice(set, part) = {point, point};
 }
 
 void add(SumSet& set, Part part, const Segment& segment) {
-  (part == Part::a ? set.twice_a : set.twice_b) = {segment.a, segment.b};
+  twice(set, part) = {segment.a, segment.b};
   set.arms[size_t(set.arm_count++)] = two_term_difference(segment.b, segment.a);
 }
 
@@ -201,7 +206,7 @@ void add(SumSet& set, Part part, const OrientedBox& box) {
 }
 
 void add(SumSet& set, Part part, const Aabb& box) {
-  (part == Part::a ? set.twice_a : set.twice_b) = {box.min, box.max};
+  twice(set, part) = {box.min, box.max};
   const ExactVector diagonal = two_term_difference(box.max, box.min);
   for (int k = 0; k < 3; ++k) {
     auto& arm = set.arms[size_t(set.arm_count++)];

@@ -1,6 +1,7 @@
 #include "engine/scene/build/spring_limits.hpp"
 
 #include "engine/dynamics/event/tolerances.hpp"
+#include "engine/math/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +94,8 @@ struct Oscillation {
   double w = 0, d = 0;  ///< [rad/s], rate of decay [1/s]
 };
 Oscillation fastest(const Joined& joined) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(joined.stiffness);
-  const Vec3 axis = solver.eigenvectors().col(2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(dense(joined.stiffness));
+  const Vec3 axis = small_vector(solver.eigenvectors().col(2));
   return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), 0.5 * axis.dot(joined.damping * axis)};
 }
 

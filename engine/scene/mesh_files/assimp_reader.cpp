@@ -1,3 +1,4 @@
+#include "engine/math/matrix4.hpp"
 #include "engine/scene/mesh_files/limited_reader.hpp"
 #include "engine/scene/mesh_files/polygon_file.hpp"
 
@@ -15,13 +16,13 @@ namespace {
 
 constexpr size_t most_nodes = 1'000'000;
 
-Vec3 mapped(const Eigen::Matrix4d& m, const aiVector3D& v) {
+Vec3 mapped(const Mat4& m, const aiVector3D& v) {
   const Vec4 p = m * Vec4(double(v.x), double(v.y), double(v.z), 1);
   return p.head<3>();
 }
 
-Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
-  Eigen::Matrix4d out;
+Mat4 matrix(const aiMatrix4x4& m) {
+  Mat4 out;
   for (unsigned r = 0; r < 4; ++r) {
     for (unsigned c = 0; c < 4; ++c) out(int(r), int(c)) = double(m[r][c]);
   }
@@ -29,11 +30,10 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
 }
 
 /// Adds a mesh in the place that `m` gives it; false when the file holds too much.
-bool add_mesh(const aiMesh& mesh, const std::string& name, const Eigen::Matrix4d& m,
-              PolygonFile& out) {
+bool add_mesh(const aiMesh& mesh, const std::string& name, const Mat4& m, PolygonFile& out) {
   if (!mesh.mVertices || !mesh.mFaces || mesh.mNumVertices == 0) return true;
   if (out.vertices.size() + mesh.mNumVertices > most_mesh_elements) return false;
-  const bool mirrored = m.topLeftCorner<3, 3>().determinant() < 0;
+  const bool mirrored = m.linear().determinant() < 0;
   out.begin_part(name);
   const auto base = uint32_t(out.vertices.size());
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
@@ -56,19 +56,19 @@ bool add_mesh(const aiMesh& mesh, const std::string& name, const Eigen::Matrix4d
 bool add_scene(const aiScene& scene, PolygonFile& out) {
   struct Place {
     const aiNode* node;
-    Eigen::Matrix4d parent;
+    Mat4 parent;
   };
   const auto mesh_at = [&](unsigned i) {
     return scene.mMeshes && i < scene.mNumMeshes ? scene.mMeshes[i] : nullptr;
   };
   std::vector<Place> places;
-  if (scene.mRootNode) places.push_back({scene.mRootNode, Eigen::Matrix4d::Identity()});
+  if (scene.mRootNode) places.push_back({scene.mRootNode, Mat4::Identity()});
   size_t visited = 0;
   while (!places.empty()) {
     const Place place = places.back();
     places.pop_back();
     if (++visited > most_nodes) return false;
-    const Eigen::Matrix4d here = place.parent * matrix(place.node->mTransformation);
+    const Mat4 here = place.parent * matrix(place.node->mTransformation);
     for (unsigned i = 0; place.node->mMeshes && i < place.node->mNumMeshes; ++i) {
       const aiMesh* mesh = mesh_at(place.node->mMeshes[i]);
       if (mesh && !add_mesh(*mesh, place.node->mName.C_Str(), here, out)) return false;
@@ -79,7 +79,7 @@ bool add_scene(const aiScene& scene, PolygonFile& out) {
   }
   for (unsigned i = 0; out.parts.empty() && i < scene.mNumMeshes; ++i) {
     const aiMesh* mesh = mesh_at(i);
-    if (mesh && !add_mesh(*mesh, mesh->mName.C_Str(), Eigen::Matrix4d::Identity(), out)) {
+    if (mesh && !add_mesh(*mesh, mesh->mName.C_Str(), Mat4::Identity(), out)) {
       return false;
     }
   }

@@ -119,17 +119,13 @@ class MjcfBodies {
     if (m.mass < 0) a.fault("mass", "a mass must not be negative");
     m.centre = at.x;
     parts.given.at = e.at;
-    Mat3 I = Mat3::Zero();
     Vec3 diagonal = Vec3::Zero();
     if (a.has("diaginertia")) {
       a.read("diaginertia", diagonal);
-      I = diagonal.asDiagonal();
-      parts.given.tensor = I;
+      parts.given.tensor = diagonal.asDiagonal();
     }
-    if (const auto v = a.numbers("fullinertia", 6, 6); !v.empty()) {
-      I << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
-      parts.given.tensor = I;
-    }
+    if (const auto v = a.numbers("fullinertia", 6, 6); !v.empty())
+      parts.given.tensor = Mat3(v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2]);
     if (!parts.given.tensor) return;
     const Mat3 R = at.q.toRotationMatrix();
     parts.given.tensor = R * *parts.given.tensor * R.transpose();

@@ -21,7 +21,7 @@ std::optional<PhysicalInertia> physical_inertia(const Mat3& given) {
   out.changed = small == 2 || second.minCoeff() < -robot_tolerances::second_moment * largest;
   if (made != second)
     out.inertia = principal.axes * out.made.asDiagonal() * principal.axes.transpose();
-  out.inertia = 0.5 * (out.inertia + out.inertia.transpose().eval());
+  out.inertia = 0.5 * (out.inertia + out.inertia.transpose());
   return out;
 }
 

@@ -66,7 +66,7 @@ Pose displacement(const RobotJoint& joint) {
   if (joint.kind == RobotJoint::Kind::slide) return {moved * joint.axis, Quat::Identity()};
   if (joint.kind == RobotJoint::Kind::ball || moved == 0) return {};
   const Quat q = axis_angle(joint.axis, moved);
-  return {joint.anchor - q._transformVector(joint.anchor), q};
+  return {joint.anchor - q * joint.anchor, q};
 }
 
 std::vector<Pose> start_poses(const RobotModel& model) {

@@ -85,7 +85,8 @@ void read_inertial(const XmlElement& e, RobotLink& link, GivenInertia& given, Ro
       a.read("ixy", I(0, 1));
       a.read("ixz", I(0, 2));
       a.read("iyz", I(1, 2));
-      given.tensor = I.selfadjointView<Eigen::Upper>();
+      I(1, 0) = I(0, 1), I(2, 0) = I(0, 2), I(2, 1) = I(1, 2);
+      given.tensor = I;
     } else {
       log.warn(child.at, fmt::format("<{}> of <inertial> is not followed", child.name));
     }

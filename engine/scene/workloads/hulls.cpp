@@ -20,8 +20,8 @@ Mat3 principal_frame(Mat3 A) {
       J(a, a) = J(b, b) = det::cos(turn);
       J(b, a) = det::sin(turn);
       J(a, b) = -J(b, a);
-      A = (J.transpose() * A * J).eval();
-      axes = (axes * J).eval();
+      A = (J.transpose() * A * J);
+      axes = (axes * J);
     }
   }
   return axes;

@@ -30,11 +30,9 @@ constexpr size_t most_tests = 300'000;
 class VolumeLines final : public DebugDraw {
  public:
   VolumeLines(Sketch& out, Ink ink, float width) : out_(out), ink_(ink), width_(width) {}
-  void line(const Vec3& a, const Vec3& b, const Eigen::Vector4f&) override {
-    out_.line(a, b, ink_, width_);
-  }
-  void point(const Vec3&, const Eigen::Vector4f&, float) override {}
-  void text(const Vec3&, const Eigen::Vector4f&, std::string_view) override {}
+  void line(const Vec3& a, const Vec3& b, const Vec4f&) override { out_.line(a, b, ink_, width_); }
+  void point(const Vec3&, const Vec4f&, float) override {}
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 
  private:
   Sketch& out_;
@@ -134,7 +132,7 @@ size_t DescentRecorder::draw_nodes(size_t body, const std::map<uint32_t, Fate>& 
                       : body == 0          ? Ink::first
                                            : Ink::second;
       VolumeLines lines(out, ink, fate == Fate::pruned ? 1.0f : 2.2f);
-      draw_bound(nodes_[body][node], pose_[body], Eigen::Vector4f::Ones(), lines);
+      draw_bound(nodes_[body][node], pose_[body], Vec4f::Ones(), lines);
     }
   return fates.size() - drawn;
 }

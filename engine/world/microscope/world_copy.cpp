@@ -20,13 +20,11 @@ class SketchLines final : public DebugDraw {
  public:
   SketchLines(Sketch& out, const Pose& pose, Ink ink, float width)
       : out_(out), pose_(pose), ink_(ink), width_(width) {}
-  void line(const Vec3& a, const Vec3& b, const Eigen::Vector4f&) override {
+  void line(const Vec3& a, const Vec3& b, const Vec4f&) override {
     out_.line(pose_.point(a), pose_.point(b), ink_, width_);
   }
-  void point(const Vec3& x, const Eigen::Vector4f&, float) override {
-    out_.point(pose_.point(x), ink_, 4);
-  }
-  void text(const Vec3&, const Eigen::Vector4f&, std::string_view) override {}
+  void point(const Vec3& x, const Vec4f&, float) override { out_.point(pose_.point(x), ink_, 4); }
+  void text(const Vec3&, const Vec4f&, std::string_view) override {}
 
  private:
   Sketch& out_;
@@ -75,7 +73,7 @@ void draw_outline(Sketch& out, const BodyInfo& info, const Pose& pose, Ink ink, 
       continue;
     }
     SketchLines lines(out, pose * part.pose, ink, width);
-    part.shape->outline(lines, Eigen::Vector4f::Ones());
+    part.shape->outline(lines, Vec4f::Ones());
   }
 }
 

@@ -34,7 +34,7 @@ class TumbleChain final : public ChainPeer {
     const auto a = system_->accelerations();
     double sum = 0;
     for (int i = 0; i < scene_.links; ++i) {
-      const Vec3 before = i == 0 ? Vec3(Vec3::Zero()) : a[size_t(i - 1)].omega;
+      const Vec3 before = i == 0 ? Vec3::Zero() : a[size_t(i - 1)].omega;
       const Vec3 own = a[size_t(i)].omega - before;
       const Vec3 axis = bodies_[size_t(i)].pose.q * vector(scene_.axis(i));
       sum += scene_.closed ? own.norm() : std::fabs(axis.dot(own));
@@ -63,9 +63,9 @@ class TumbleChain final : public ChainPeer {
       joint.kind = scene_.closed ? JointKind::spherical : JointKind::revolute;
       joint.a = before;
       const Quat hinge = rotation_between(Vec3::UnitZ(), vector(scene_.axis(i)).normalized());
-      joint.frame_a = {before.is_null() ? Vec3(Vec3::Zero()) : Vec3(rod_length / 2, 0, 0), hinge};
+      joint.frame_a = {before.is_null() ? Vec3::Zero() : Vec3(rod_length / 2, 0, 0), hinge};
       joint.frame_b = {Vec3(-rod_length / 2, 0, 0), hinge};
-      end.q = end.q * Quat(Eigen::AngleAxisd(scene_.angle(i), vector(scene_.axis(i))));
+      end.q = end.q * axis_angle(vector(scene_.axis(i)), scene_.angle(i));
       omega += end.q * (scene_.rate(i) * vector(scene_.axis(i)));
       const Vec3 half = end.q * Vec3(rod_length / 2, 0, 0);
       BodyDef rod;

@@ -1,3 +1,4 @@
+#include "engine/math/dense.hpp"
 #include "tests/bench/peer_values/mujoco.hpp"
 #include "tests/bench/trees/tree.hpp"
 
@@ -46,15 +47,15 @@ class MujocoTree final : public TreePeer {
  private:
   std::string body(size_t i) const {
     const TreeLink& link = scene_.links[i];
-    const Mat3& m = link.inertia;
+    const Mat3 m = small_matrix(link.inertia);
     std::string out = fmt::format("<body name=\"b{}\" pos=\"{}\" quat=\"{}\">", i,
-                                  test::mujoco_text(Vec3(link.in_parent.translation())),
-                                  test::mujoco_text(Quat(link.in_parent.linear())));
+                                  test::mujoco_text(small_vector(link.in_parent.translation())),
+                                  test::mujoco_text(Quat(small_matrix(link.in_parent.linear()))));
     out += link.free ? "<freejoint/>"
                      : fmt::format("<joint name=\"j{}\" axis=\"{}\"/>", i,
-                                   test::mujoco_text(Vec3(link.axis)));
+                                   test::mujoco_text(small_vector(link.axis)));
     out += fmt::format("<inertial pos=\"{}\" mass=\"{:.17g}\" fullinertia=\"{} {}\"/>\n",
-                       test::mujoco_text(Vec3(link.centre)), link.mass,
+                       test::mujoco_text(small_vector(link.centre)), link.mass,
                        test::mujoco_text(Vec3(m.diagonal())),
                        test::mujoco_text(Vec3(m(0, 1), m(0, 2), m(1, 2))));
     return out + children(int(i)) + "</body>\n";

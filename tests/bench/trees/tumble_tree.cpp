@@ -1,4 +1,5 @@
 #include "engine/dynamics/event/event_system.hpp"
+#include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/bench/trees/tree.hpp"
@@ -9,6 +10,10 @@
 
 namespace tumble::bench {
 namespace {
+
+Pose pose(const Eigen::Isometry3d& t) {
+  return {small_vector(t.translation()), Quat(small_matrix(t.linear()))};
+}
 
 /// Equations of motion of a tree, and the same tree in a world for steps.
 class TumbleTree final : public TreePeer {
@@ -32,8 +37,8 @@ class TumbleTree final : public TreePeer {
     for (size_t i = 0; i < scene_.links.size(); ++i) {
       const TreeLink& link = scene_.links[i];
       if (link.free) continue;
-      const Vec3 before = link.parent < 0 ? Vec3(Vec3::Zero()) : a[size_t(link.parent)].omega;
-      const Vec3 axis = bodies_[i].pose.q * Vec3(link.axis);
+      const Vec3 before = link.parent < 0 ? Vec3::Zero() : a[size_t(link.parent)].omega;
+      const Vec3 axis = bodies_[i].pose.q * small_vector(link.axis);
       sum += std::fabs(axis.dot(a[i].omega - before));
     }
     return sum;
@@ -42,7 +47,7 @@ class TumbleTree final : public TreePeer {
   double step() override {
     const auto done = world_->step();
     if (!done) throw std::runtime_error(done.error().text());
-    return scene_.height(world_->body(tip_)->pose.x);
+    return scene_.height(dense(world_->body(tip_)->pose.x));
   }
 
  private:
@@ -57,7 +62,7 @@ class TumbleTree final : public TreePeer {
     WorldDef def;
     def.settings.stepper = "event";
     def.settings.tick = TickRate{uint32_t(std::lround(1 / scene_.step)), 1};
-    def.settings.gravity = scene_.gravity;
+    def.settings.gravity = small_vector(scene_.gravity);
     def.threads = 1;
     world_ = std::move(*World::create(std::move(def)));
     std::vector<Place> places;
@@ -65,9 +70,9 @@ class TumbleTree final : public TreePeer {
       const Place parent = link.parent < 0 ? Place{} : places[size_t(link.parent)];
       Place& now = places.emplace_back();
       now.frame = parent.frame * link.moved();
-      const Vec3 arm = now.frame.translation() - parent.frame.translation();
+      const Vec3 arm = small_vector(now.frame.translation() - parent.frame.translation());
       now.v = parent.v + parent.omega.cross(arm);
-      now.omega = parent.omega + now.frame.linear() * (link.rate * link.axis);
+      now.omega = parent.omega + small_vector(now.frame.linear() * (link.rate * link.axis));
       now.id = add_body(link, now);
       if (!link.free) add_hinge(link, parent.id, now.id);
     }
@@ -75,28 +80,30 @@ class TumbleTree final : public TreePeer {
   }
   /// Bodies have their origins in their centres of mass.
   BodyId add_body(const TreeLink& link, const Place& at) {
-    const Mat3& m = link.inertia;
+    const Mat3 m = small_matrix(link.inertia);
     BodyDef body;
     body.mass = link.mass;
     body.inertia = m.diagonal();
     body.products = Vec3(m(0, 1), m(0, 2), m(1, 2));
-    const Vec3 arm = at.frame.linear() * link.centre;
-    body.pose = {at.frame.translation() + arm, Quat(at.frame.linear())};
+    const Vec3 arm = small_vector(at.frame.linear() * link.centre);
+    body.pose = pose(at.frame);
+    body.pose.x += arm;
     body.velocity = at.v + at.omega.cross(arm);
     body.angular_velocity = at.omega;
     bodies_.push_back(*make_body(body));
     return *world_->create_body(body);
   }
   void add_hinge(const TreeLink& link, BodyId parent, BodyId child) {
-    const Quat hinge = rotation_between(Vec3::UnitZ(), Vec3(link.axis).normalized());
+    const Quat hinge = rotation_between(Vec3::UnitZ(), small_vector(link.axis).normalized());
     const Vec3 centre =
-        link.parent < 0 ? Vec3(Vec3::Zero()) : Vec3(scene_.links[size_t(link.parent)].centre);
+        link.parent < 0 ? Vec3::Zero() : small_vector(scene_.links[size_t(link.parent)].centre);
     JointDef joint;
     joint.kind = JointKind::revolute;
     joint.a = parent;
     joint.b = child;
-    joint.frame_a = {link.in_parent.translation() - centre, Quat(link.in_parent.linear()) * hinge};
-    joint.frame_b = {-link.centre, hinge};
+    const Pose before = pose(link.in_parent);
+    joint.frame_a = {before.x - centre, before.q * hinge};
+    joint.frame_b = {-small_vector(link.centre), hinge};
     (void)*world_->create_joint(joint);
     Joint& j = joints_.emplace_back();
     j.kind = joint.kind;
@@ -115,7 +122,7 @@ class TumbleTree final : public TreePeer {
   ContactForceMethod method_;
   SmoothForces forces_ = [this](double, std::span<const uint32_t> slots) {
     for (const uint32_t s : slots) {
-      bodies_[s].force = bodies_[s].mass * scene_.gravity;
+      bodies_[s].force = bodies_[s].mass * small_vector(scene_.gravity);
       bodies_[s].torque.setZero();
     }
   };

@@ -15,10 +15,10 @@ struct OdeHull {
   std::vector<unsigned> polygons;
 
   explicit OdeHull(const ConvexPolyhedron& hull) {
-    for (const Vec3& v : hull.vertices) points.insert(points.end(), v.begin(), v.end());
+    for (const Vec3& v : hull.vertices) points.insert(points.end(), v.data(), v.data() + 3);
     for (size_t f = 0; f < hull.face_count(); ++f) {
       const Vec3& n = hull.planes[f].normal;
-      planes.insert(planes.end(), n.begin(), n.end());
+      planes.insert(planes.end(), n.data(), n.data() + 3);
       planes.push_back(n.dot(hull.vertices[hull.face(f)[0]]));
       polygons.push_back(unsigned(hull.face(f).size()));
       polygons.insert(polygons.end(), hull.face(f).begin(), hull.face(f).end());
@@ -34,7 +34,7 @@ struct OdeMesh {
 
   explicit OdeMesh(const TriangleMesh& mesh) {
     for (const Vec3& v : mesh.vertices)
-      for (const double x : v) points.push_back(float(x));
+      for (int k = 0; k < 3; ++k) points.push_back(float(v[k]));
     for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
     dGeomTriMeshDataBuildSingle(data, points.data(), 3 * sizeof(float), int(mesh.vertices.size()),
                                 corners.data(), int(corners.size()), 3 * sizeof(dTriIndex));

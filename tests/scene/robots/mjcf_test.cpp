@@ -95,8 +95,8 @@ TEST_CASE("mjcf: an inertial stands for the geoms, unless the compiler says othe
   };
   CHECK(mass("").mass == 5);
   CHECK(mass("").centre == Vec3(0, 0, 1));
-  Mat3 expected;  // turned by 90 degrees about x: y becomes z, z becomes -y
-  expected << 3, 0, 0, 0, 5, -0.25, 0, -0.25, 4;
+  // Turned by 90 degrees about x: y becomes z, z becomes -y.
+  const Mat3 expected(3, 0, 0, 0, 5, -0.25, 0, -0.25, 4);
   CHECK((mass("").inertia - expected).norm() < 1e-12);
   CHECK(mass("inertiafromgeom=\"true\"").mass == 7);
   CHECK(mass("settotalmass=\"2\"").mass == doctest::Approx(2));

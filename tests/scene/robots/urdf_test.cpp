@@ -53,8 +53,7 @@ TEST_CASE("urdf: mass, centre and tensor of a link are in its own frame") {
   const MassProperties& m = r.model.links[0].mass;
   CHECK(m.mass == 2);
   CHECK(m.centre == Vec3(0.1, 0.2, 0.3));
-  Mat3 expected;
-  expected << 4, -0.5, 0, -0.5, 3, 0, 0, 0, 5;
+  const Mat3 expected(4, -0.5, 0, -0.5, 3, 0, 0, 0, 5);
   CHECK(apart(m.inertia, expected) < 1e-12);
   const RobotParts parts = made(r, {.base = RobotBase::floating});
   const BodyDescription& body = *parts.scene.bodies.find("a");

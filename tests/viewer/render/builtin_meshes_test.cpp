@@ -20,7 +20,7 @@ struct Solid {
 /// The triangles as surface.vert places them.
 Solid placed(const MeshInstance& i) {
   Solid s;
-  const Eigen::Matrix3d m = i.transform.linear.cast<double>();
+  const Mat3 m = i.transform.linear.cast<double>();
   for (const uint32_t k : i.mesh->indices) {
     const Vec3 n = i.mesh->normals[k].cast<double>();
     Vec3 moved = Vec3::Zero();

@@ -51,7 +51,7 @@ TEST_CASE("the view looks along -z with up upwards, for any input") {
   CHECK((view_matrix(c) * Vec4(3, 3, 1, 1) - Vec4(0, 1, 0, 1)).norm() < 1e-12);
   for (const Vec3& target : {Vec3(3, 2, 1), Vec3(3, 9, 1), Vec3(3, -9, 1), Vec3(NAN, 0, 0)}) {
     c.target = target;
-    const Mat3 r = view_matrix(c).topLeftCorner<3, 3>();
+    const Mat3 r = view_matrix(c).linear();
     CHECK((r * r.transpose() - Mat3::Identity()).norm() < 1e-12);
     CHECK(r.determinant() == doctest::Approx(1));
   }

@@ -58,7 +58,7 @@ TEST_CASE("small movements keep the grid of texels in place") {
   for (int i = 1; i < 40; ++i) {
     const LightFit b = fit(0.0137 * i);
     CHECK(b.texel == doctest::Approx(a.texel).epsilon(1e-12));
-    const Vec4 shift = (b.shadow_from_world - a.shadow_from_world) * Vec4(0, 0, 0, 1) * 1024;
+    const Vec4 shift = (b.shadow_from_world.col(3) - a.shadow_from_world.col(3)) * 1024;
     CHECK(std::fabs(shift.x() - std::round(shift.x())) < 1e-6);
     CHECK(std::fabs(shift.y() - std::round(shift.y())) < 1e-6);
   }

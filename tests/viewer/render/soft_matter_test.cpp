@@ -36,7 +36,7 @@ FluidSurface slab(double depth, double spacing = 0.05) {
 }
 
 Vec3f left_at(const SunVeil& veil, const Vec3& x) {
-  const Vec4 p = veil.veil_from_world * x.homogeneous();
+  const Vec4 p = veil.veil_from_world * Vec4(x[0], x[1], x[2], 1);
   const auto place = [&](double u) {
     return size_t(std::clamp(int(u * veil.size), 0, veil.size - 1));
   };
@@ -134,7 +134,7 @@ TEST_CASE("whatever a veil can shade lies in the part of the picture that is giv
       Vec3 x =
           centre.cast<double>() + 0.2 * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
       x -= to_sun * (r.uniform() * std::max(x.y() - scene.ground.height, 0.0) / to_sun.y());
-      const Vec4 clip = setup.view.clip_from_world * x.homogeneous();
+      const Vec4 clip = setup.view.clip_from_world * Vec4(x[0], x[1], x[2], 1);
       if (clip.head<3>().cwiseAbs().maxCoeff() > clip.w()) continue;
       const double column = 320 * (clip.x() / clip.w() + 1), row = 180 * (1 - clip.y() / clip.w());
       REQUIRE(area.has_value());
@@ -184,7 +184,7 @@ TEST_CASE("what a puff covers lies in the part of the picture that is given for 
       const Vec3 right = ahead.cross(setup.view.up).normalized(), up = right.cross(ahead);
       const double angle = r.uniform(0, 2 * M_PI), reach = r.uniform() * double(place[3]);
       const Vec3 x = centre + reach * (std::cos(angle) * right + std::sin(angle) * up);
-      const Vec4 clip = setup.view.clip_from_world * x.homogeneous();
+      const Vec4 clip = setup.view.clip_from_world * Vec4(x.x(), x.y(), x.z(), 1);
       if (clip.head<3>().cwiseAbs().maxCoeff() > clip.w()) continue;
       const double column = 320 * (clip.x() / clip.w() + 1), row = 180 * (1 - clip.y() / clip.w());
       CHECK(column >= area->x);

@@ -13,7 +13,8 @@ Json numbers_json(const Vec3& v) {
 }
 
 Json rows_json(const Mat3& m) {
-  return {numbers_json(m.row(0)), numbers_json(m.row(1)), numbers_json(m.row(2))};
+  return {numbers_json(m.row(0).transpose()), numbers_json(m.row(1).transpose()),
+          numbers_json(m.row(2).transpose())};
 }
 
 template <class T>

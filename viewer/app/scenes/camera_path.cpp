@@ -6,21 +6,32 @@ namespace tumble {
 namespace {
 
 /// What of a camera moves: eye, target, field of view.
-using CameraNumbers = Eigen::Matrix<double, 7, 1>;
+struct CameraNumbers {
+  Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+  double fov_deg = 0;
+
+  friend CameraNumbers operator+(const CameraNumbers& a, const CameraNumbers& b) {
+    return {a.eye + b.eye, a.target + b.target, a.fov_deg + b.fov_deg};
+  }
+  friend CameraNumbers operator*(double s, const CameraNumbers& a) {
+    return {s * a.eye, s * a.target, s * a.fov_deg};
+  }
+};
 
 CameraNumbers numbers_of(const Camera& camera) {
-  CameraNumbers out;
-  out << camera.eye, camera.target, camera.fov_deg;
-  return out;
+  return {camera.eye, camera.target, camera.fov_deg};
+}
+
+/// By how much they change in a second on the way from one key to another.
+CameraNumbers slope(const CameraKey& from, const CameraKey& to) {
+  return (1 / (to.time - from.time)) * (numbers_of(to.camera) + (-1) * numbers_of(from.camera));
 }
 
 CameraNumbers key_slope(const std::vector<CameraKey>& path, size_t i) {
-  if (i == 0 || i + 1 == path.size()) return CameraNumbers::Zero();
+  if (i == 0 || i + 1 == path.size()) return {};
   const double before = path[i].time - path[i - 1].time, after = path[i + 1].time - path[i].time;
-  const CameraNumbers here = numbers_of(path[i].camera);
-  const CameraNumbers from = (here - numbers_of(path[i - 1].camera)) / before;
-  const CameraNumbers to = (numbers_of(path[i + 1].camera) - here) / after;
-  return (after * from + before * to) / (before + after);
+  return (1 / (before + after)) *
+         (after * slope(path[i - 1], path[i]) + before * slope(path[i], path[i + 1]));
 }
 
 }  // namespace
@@ -37,9 +48,9 @@ Camera camera_at(const std::vector<CameraKey>& path, double time) {
                            (3 * u2 - 2 * u3) * numbers_of(path[b].camera) +
                            (u3 - u2) * span * key_slope(path, b);
   Camera out = path[a].camera;
-  out.eye = at.head<3>();
-  out.target = at.segment<3>(3);
-  out.fov_deg = at[6];
+  out.eye = at.eye;
+  out.target = at.target;
+  out.fov_deg = at.fov_deg;
   return out;
 }
 

@@ -142,9 +142,8 @@ void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& 
   }
   for (SphereInstance sphere : picture_.spheres) {
     if (taken_by_spheres.has(sphere)) continue;
-    sphere.colour.head<3>() =
-        (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
-    sphere.colour[3] = ghost_opacity * std::min(sphere.colour[3], 1.0f);
+    const Vec3f c = (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
+    sphere.colour = {c[0], c[1], c[2], ghost_opacity * std::min(sphere.colour[3], 1.0f)};
     picture.spheres.push_back(sphere);
   }
 }

@@ -33,7 +33,7 @@ class NearestApproach {
     for (int i = 0; i < system.points(); ++i) {
       const double answer = system.mobility(i).diagonal().maxCoeff();
       scale_.segment<3>(3 * i).setConstant(answer > 0 ? 1 / std::sqrt(answer) : 0);
-      u_.segment<3>(3 * i) = scale_[3 * i] * system.velocity(i);
+      u_.segment<3>(3 * i) = scale_[3 * i] * dense(system.velocity(i));
     }
     A_ = scale_.asDiagonal() * system.mobility() * scale_.asDiagonal();
     start_ = u_;
@@ -49,7 +49,8 @@ class NearestApproach {
     Mat3 slope;
     z.resize(size_);
     for (int i = 0; i < system_.points(); ++i)
-      z.segment<3>(3 * i) = project_on_cone(-u.segment<3>(3 * i), friction(i), slope);
+      z.segment<3>(3 * i) =
+          dense(project_on_cone(-small_vector(u.segment<3>(3 * i)), friction(i), slope));
     return 0.5 * z.squaredNorm();
   }
   bool improve();
@@ -67,8 +68,8 @@ bool NearestApproach::improve() {
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size_, size_);
   Mat3 slope;
   for (int i = 0; i < system_.points(); ++i) {
-    project_on_cone(-u_.segment<3>(3 * i), friction(i), slope);
-    step.middleRows<3>(3 * i) = slope * A_.middleRows<3>(3 * i);
+    project_on_cone(-small_vector(u_.segment<3>(3 * i)), friction(i), slope);
+    step.middleRows<3>(3 * i) = dense(slope) * A_.middleRows<3>(3 * i);
   }
   step.diagonal().array() += tolerances::proof_yield;
   LuFactor factor;
@@ -126,7 +127,7 @@ std::optional<Crush> find_crush(std::span<const DofBlock> blocks,
   if (impulses.size() == 0) return {};
   double work = 0, greatest = 0;
   for (int i = 0; i < system.points(); ++i) {
-    const Vec3 impulse = impulses.segment<3>(3 * i);
+    const Vec3 impulse = small_vector(impulses.segment<3>(3 * i));
     work -= impulse.dot(system.velocity(i));
     greatest = std::max(greatest, impulse.norm());
   }

@@ -129,7 +129,8 @@ class RouthProcess {
       return Slip((c * x - b * y) / det, (a * y - b * x) / det);
     };
     const Slip left = slip_of(now_), hold = solve(-K_(1, 0), -K_(2, 0));
-    now_.p.tail<2>() -= solve(left.x(), left.y());  // what rounding left of slip
+    const Slip too_much = solve(left.x(), left.y());  // what rounding left of slip
+    now_.p -= Vec3(0, too_much.x(), too_much.y());
     out_.stuck = hold.norm() <= mu_;
     way_on_ = out_.stuck ? Vec3(1, hold.x(), hold.y()) : sliding_impulse(growing_ray());
   }
@@ -143,7 +144,7 @@ class RouthProcess {
       const Slip s = direction_around(t), r = slip_rate(s);
       return s.x() * r.y() - s.y() * r.x();
     };
-    Slip best = Slip::UnitX();
+    Slip best(1, 0);
     double best_growth = -endless;
     for (int k = 0; k < parts; ++k) {
       double lo = 4.0 * k / parts, hi = 4.0 * (k + 1) / parts;

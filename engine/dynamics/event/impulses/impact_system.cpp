@@ -4,6 +4,7 @@
 #include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/dynamics/rows/block_rows.hpp"
+#include "engine/dynamics/rows/delassus.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -220,12 +221,12 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
       const Eigen::Index j = 3 * i + 1;
       const double stiffest = A_(j, j) + A_(j + 1, j + 1);  // at least the greater eigenvalue
       if (!(stiffest > 0)) continue;
-      const Vec2 old = impulse.segment<2>(j);
-      Vec2 t = old - u.segment<2>(j) / stiffest;
+      const Vec2 old(impulse[j], impulse[j + 1]);
+      Vec2 t = old - Vec2(u[j], u[j + 1]) / stiffest;
       if (t.norm() > radius) t *= radius / t.norm();
       const Vec2 step = t - old;
       change = std::max(change, stiffest * step.norm());
-      impulse.segment<2>(j) = t;
+      impulse[j] = t.x(), impulse[j + 1] = t.y();
       for (Eigen::Index r = 0; r < u.size(); ++r)
         u[r] += A_(r, j) * step.x() + A_(r, j + 1) * step.y();
     }

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/event/impulses/impact_law.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
+#include "engine/math/dense.hpp"
 
 #include <array>
 #include <vector>
@@ -21,8 +22,8 @@ class ImpactSystem {
   const ImpactPoint& point(int i) const { return points_[size_t(i)]; }
   bool finite() const;
   double normal_velocity(int i) const { return u_[3 * i]; }
-  Vec3 velocity(int i) const { return u_.segment<3>(3 * i); }
-  Mat3 mobility(int i) const { return A_.block<3, 3>(3 * i, 3 * i); }
+  Vec3 velocity(int i) const { return small_vector(u_.segment<3>(3 * i)); }
+  Mat3 mobility(int i) const { return small_matrix(A_.block<3, 3>(3 * i, 3 * i)); }
   const Eigen::MatrixXd& mobility() const { return A_; }
   /// The fastest relative velocity at the beginning [m/s].
   double first_speed() const { return first_speed_; }

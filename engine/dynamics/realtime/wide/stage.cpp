@@ -83,8 +83,7 @@ void store_turning(const WideTurning& from, uint32_t lane, double rate, const Ve
                    const Vec3& t2, Contact& to) {
   // What has no such row keeps its zeros, whatever else is in the bundle.
   if (!to.resists_turning()) return;
-  Mat3 axes;
-  axes << t1, t2, to.normal;
+  const Mat3 axes = Mat3::from_columns(t1, t2, to.normal);
   to.turning_torque = axes * (rate * doubles_of(from.impulse, lane));
   to.turning_impulse = axes * doubles_of(from.sum, lane);
 }

@@ -1,7 +1,7 @@
 #pragma once
-#include <string_view>
+#include "engine/math/types.hpp"
 
-#include <Eigen/Core>
+#include <string_view>
 
 namespace tumble {
 
@@ -11,21 +11,18 @@ namespace tumble {
 class DebugDraw {
  public:
   virtual ~DebugDraw() = default;
-  virtual void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                    const Eigen::Vector4f& colour) = 0;
-  virtual void point(const Eigen::Vector3d& x, const Eigen::Vector4f& colour, float pixels) = 0;
-  virtual void text(const Eigen::Vector3d& x, const Eigen::Vector4f& colour,
-                    std::string_view s) = 0;
+  virtual void line(const Vec3& a, const Vec3& b, const Vec4f& colour) = 0;
+  virtual void point(const Vec3& x, const Vec4f& colour, float pixels) = 0;
+  virtual void text(const Vec3& x, const Vec4f& colour, std::string_view s) = 0;
 };
 
 /// The twelve edges of a box between two corners.
-inline void draw_box(DebugDraw& out, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
-                     const Eigen::Vector4f& colour) {
-  const Eigen::Vector3d corners[2] = {lo, hi};
+inline void draw_box(DebugDraw& out, const Vec3& lo, const Vec3& hi, const Vec4f& colour) {
+  const Vec3 corners[2] = {lo, hi};
   for (int axis = 0; axis < 3; ++axis)
     for (int i = 0; i < 4; ++i) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      Eigen::Vector3d a, b;
+      Vec3 a, b;
       a[u] = b[u] = corners[i & 1][u];
       a[v] = b[v] = corners[i >> 1][v];
       a[axis] = lo[axis];
