@@ -86,8 +86,8 @@ BounceErrors a2_bounces(const CaseMaker& maker, int hz, double seconds) {
   return out;
 }
 
-std::vector<CaseBody> block_of_balls(double lowest, double restitution) {
-  CaseDraw draw{42};
+std::vector<CaseBody> block_of_balls(double lowest, double restitution, uint64_t start) {
+  CaseDraw draw{start};
   std::vector<CaseBody> out;
   for (int k = 0; k < 6; ++k)
     for (int i = 0; i < 6; ++i)
@@ -288,9 +288,9 @@ CardErrors a9_cards(const CaseMaker& maker, int hz, double seconds, int storeys)
   return out;
 }
 
-double a10_penetration(const CaseMaker& maker, int hz, double seconds) {
+double a10_penetration(const CaseMaker& maker, int hz, double seconds, uint64_t draw) {
   CaseScene s;
-  s.bodies = block_of_balls(0.101, 0);
+  s.bodies = block_of_balls(0.101, 0, draw);
   s.bodies.push_back(case_floor(0));
   CaseRun run(s, maker, hz);
   double deepest = 0;

@@ -26,7 +26,7 @@ struct BounceErrors {
 BounceErrors a2_bounces(const CaseMaker& maker, int hz, double seconds = 20);
 
 /// The block of 6 x 6 x 6 balls of 10 kg, radius 0.1 m, 0.21 m apart but for a little chance.
-std::vector<CaseBody> block_of_balls(double lowest, double restitution);
+std::vector<CaseBody> block_of_balls(double lowest, double restitution, uint64_t draw = 42);
 
 /// A3: the block falls on the floor, all elastic. A3z: its halves meet without gravity.
 struct GasErrors {
@@ -92,7 +92,9 @@ CaseScene card_house(int storeys = 5);
 CardErrors a9_cards(const CaseMaker& maker, int hz, double seconds = 10, int storeys = 5);
 
 /// A10: the block of balls falls on the floor without any restitution or friction. Greatest overlap
-/// of any two, at any tick [m].
-double a10_penetration(const CaseMaker& maker, int hz, double seconds = 3);
+/// of any two, at any tick [m]. Where the balls stand aside of each other at the start is drawn,
+/// and much depends on it: over 100 draws the realtime stepper is at 0.3 to 13 mm, half of them
+/// below 0.75 mm.
+double a10_penetration(const CaseMaker& maker, int hz, double seconds = 3, uint64_t draw = 42);
 
 }  // namespace tumble::test
