@@ -1,6 +1,7 @@
 #include "viewer/ui/parameter_widgets.hpp"
 
 #include "engine/scene/visitors/known_names.hpp"
+#include "engine/scene/visitors/value_text.hpp"
 #include "engine/world/settings.hpp"
 #include "viewer/ui/style.hpp"
 
@@ -16,13 +17,18 @@
 namespace tumble {
 namespace {
 
-bool fits(double v, const Parameter& p) {
-  return std::isfinite(v) && v <= p.max && (p.exclusive_min ? v > p.min : v >= p.min);
+/// What is wrong with a value; "": nothing.
+std::string fault_of(double v, const Parameter& p) {
+  return range_fault(v, p);
+}
+std::string fault_of(const Vec3& v, const Parameter& p) {
+  for (int k = 0; k < 3; ++k)
+    if (std::string fault = range_fault(v[k], p); !fault.empty()) return fault;
+  return {};
 }
 
-bool fits(const Vec3& v, const Parameter& p) {
-  return fits(v.x(), p) && fits(v.y(), p) && fits(v.z(), p);
-}
+/// For how long it is said why a value was not taken [s].
+constexpr double fault_seconds = 6;
 
 /// Share of a line that labels take.
 constexpr float label_share = 0.56f;
@@ -80,10 +86,8 @@ void ParameterWidgets::field(double& value, const Parameter& p) {
   const float speed = float(std::max(std::abs(v) * 0.01, 1e-3));
   const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", unit_words(p.unit));
   if (ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr, nullptr, format.c_str()) &&
-      fits(v, p)) {
+      takes(fault_of(v, p), p))
     value = v;
-    note_change(p);
-  }
   end(p);
 }
 
@@ -91,10 +95,8 @@ void ParameterWidgets::field(int& value, const Parameter& p) {
   begin(p);
   int v = value;
   if (ImGui::DragInt(id(p), &v, 0.1f, int(std::max(p.min, -1e6)), int(std::min(p.max, 1e6))) &&
-      fits(v, p)) {
+      takes(fault_of(v, p), p))
     value = v;
-    note_change(p);
-  }
   end(p);
 }
 
@@ -109,10 +111,8 @@ void ParameterWidgets::field(Vec3& value, const Parameter& p) {
   const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
   if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
                          "%.4g") &&
-      fits(v, p)) {
+      takes(fault_of(v, p), p))
     value = v;
-    note_change(p);
-  }
   if (ImGui::IsItemVisible()) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
     const float third = (b.x - a.x) / 3;
@@ -126,10 +126,8 @@ void ParameterWidgets::field(Vec3& value, const Parameter& p) {
 void ParameterWidgets::field(TickRate& value, const Parameter& p) {
   begin(p);
   auto hz = int(std::lround(double(value.num) / double(value.den)));
-  if (ImGui::DragInt(id(p), &hz, 1, int(p.min), 2000, "%d Hz") && fits(hz, p)) {
+  if (ImGui::DragInt(id(p), &hz, 1, int(p.min), 2000, "%d Hz") && takes(fault_of(hz, p), p))
     value = {hz, 1};
-    note_change(p);
-  }
   end(p);
 }
 
@@ -191,6 +189,17 @@ const char* ParameterWidgets::id(const Parameter& p) {
   return id_.c_str();
 }
 
+bool ParameterWidgets::takes(std::string fault, const Parameter& p) {
+  RefusedValue& refused = context_.state.refused;
+  if (fault.empty()) {
+    if (refused.field == mark_name(p)) refused = {};
+    note_change(p);
+    return true;
+  }
+  refused = {mark_name(p), std::move(fault), ImGui::GetTime() + fault_seconds};
+  return false;
+}
+
 void ParameterWidgets::note_change(const Parameter& p) {
   changed = true;
   edited = label_of(p.name);
@@ -215,6 +224,14 @@ void ParameterWidgets::begin(const Parameter& p, bool own_line) {
 void ParameterWidgets::end(const Parameter& p) {
   context_.host.mark(mark_name(p));
   tooltip_with_key(context_, p.doc, {});
+  // While one types the figures before the last may be out of range.
+  const RefusedValue& refused = context_.state.refused;
+  if (refused.field != mark_name(p) || ImGui::GetTime() > refused.until || ImGui::IsItemActive())
+    return;
+  ImGui::PushFont(context_.host.fonts().small);
+  wrapped(label_of(p.name) + " " + refused.words, palette::red);
+  ImGui::PopFont();
+  context_.host.mark(mark_name(p) + ".refused");
 }
 
 }  // namespace tumble

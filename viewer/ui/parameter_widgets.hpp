@@ -22,7 +22,8 @@ std::string words_of(std::string_view name);
 std::string unit_words(std::string_view unit);
 
 /// A widget for each declared parameter (core/parameters.hpp) with its unit, range and help: a
-/// visitor over what a definition declares. Values outside the range are not taken.
+/// visitor over what a definition declares. Values outside the range are not taken, and the line
+/// below the field says why for some seconds.
 class ParameterWidgets {
  public:
   /// Widgets are marked "PREFIX.NAME" for scripts, the numbers of a vector "PREFIX.NAME.x" too.
@@ -65,6 +66,8 @@ class ParameterWidgets {
   void heading(const Parameter& p);
 
  protected:
+  /// Whether a value without a fault, or with this one, is taken; it is said if not.
+  bool takes(std::string fault, const Parameter& p);
   void note_change(const Parameter& p);
   void begin(const Parameter& p, bool own_line = false);
   void end(const Parameter& p);

@@ -378,6 +378,13 @@ struct TypedDisplacement {
   double scale = 1;
 };
 
+/// A value that a field did not take.
+struct RefusedValue {
+  std::string field;  ///< the mark of its widget; "": none
+  std::string words;  ///< why
+  double until = 0;   ///< when it has been said for long enough, on the clock of Dear ImGui [s]
+};
+
 /// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
@@ -395,6 +402,7 @@ struct UiState {
   bool ruling = false;                              ///< clicks are points of a ruler,
   bool ruling_angle = false;                        ///< or of a protractor
   std::optional<uint64_t> span_began;               ///< while a span of time is being drawn
+  RefusedValue refused;                             ///< the last one
   TypedDisplacement typed;                          ///< in place of a drag
   uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled

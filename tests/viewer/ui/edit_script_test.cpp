@@ -1,4 +1,5 @@
 // Reference: the state hash of the world before and after each deed, poses by hand.
+#include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -109,7 +110,7 @@ TEST_CASE("a copy stands beside its body, and what was done to it is done to the
   const BodyId copy = session.world().find_body("box_2");
   CHECK(rig.app->selected() == copy);
   // Up a step, and turned a little: a winding stair.
-  const Quat turn(Eigen::AngleAxisd(0.5, Vec3::UnitY()));
+  const Quat turn(axis_angle(Vec3::UnitY(), 0.5));
   const Pose step{Vec3(0.8, 0.3, 0.1), turn};
   const Pose first = session.world().body_def(session.world().find_body("box"))->pose;
   session.post([&](World& world) { CHECK(world.set_pose(copy, first * step).ok()); });
@@ -188,6 +189,28 @@ TEST_CASE("values of a body are changed in the panel, with one deed for each pul
   CHECK(rig.app->session().world().body(rig.app->selected())->mass == mass);
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}
+
+TEST_CASE("a number out of range is not taken, and the field says why") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  rig.play("wait 5\nkey Space\nclick body:box\nwait 3\nclick inspector.group.1\nwait 3");
+  const uint64_t before = state_of(rig);
+  const auto said = [&] { return rig.app->locate("inspector.mass.refused").has_value(); };
+  rig.play("double_click inspector.mass\ntext -5\nkey Enter\nwait 2");
+  CHECK(state_of(rig) == before);
+  CHECK(said());
+  CHECK(rig.app->ui_state().refused.words == "must be > 0 and <= 1e+15 kg, got -5 kg");
+  rig.play("double_click inspector.mass\ntext 7\nkey Enter\nwait 2");
+  CHECK(rig.app->session().world().body(rig.app->selected())->mass == doctest::Approx(7));
+  CHECK_FALSE(said());
+  // Long enough to be read, then it goes.
+  rig.play("double_click inspector.mass\ntext 0\nkey Enter\nwait 300");
+  CHECK(said());
+  rig.play("wait 100");
+  CHECK_FALSE(said());
   check_no_faults(*device);
 }
 
