@@ -1,11 +1,6 @@
 #version 330 core
-#include "srgb.glsl"
-in vec3 direction;
-flat in vec4 v_zenith, v_horizon, v_sun, v_to_sun;
-#define sky_zenith v_zenith
-#define sky_horizon v_horizon
-#define sun_colour v_sun
-#define to_sun v_to_sun
-#include "sky.glsl"
+in vec3 colour;
+in float above;
+flat in vec3 at_horizon;
 out vec4 picture_out;
-void main() { picture_out = vec4(sky_colour(normalize(direction)), 1.0); }
+void main() { picture_out = vec4(above > 0.0 ? colour : at_horizon, 1.0); }

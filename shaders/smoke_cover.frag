@@ -13,23 +13,24 @@ float closeness(ivec2 pixel) {
   return v_depths.y - depth * (v_depths.y - v_depths.x);
 }
 
+// What counts of a texel with this bilinear share.
+float weight(ivec2 texel, float share, float by_own) {
+  ivec2 pixel = ivec2(v_depths.z * (vec2(texel) + 0.5));
+  float other = closeness(min(pixel, textureSize(scene_depth, 0) - 1));
+  return share / (0.02 + abs(other * by_own - 1.0)) + 1e-4;
+}
+
 void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy), last = textureSize(scene_depth, 0) - 1;
-  vec2 place = gl_FragCoord.xy / v_depths.z;
-  if (texture(smoke, place / vec2(textureSize(smoke, 0))).a == 0.0) discard;
-  place -= 0.5;
-  float own = closeness(here);
-  vec2 low = floor(place), f = place - low;
-  vec4 sum = vec4(0.0);
-  float weights = 1e-6;
-  for (int k = 0; k < 4; ++k) {
-    vec2 step = vec2(float(k & 1), float(k >> 1));
-    ivec2 texel = clamp(ivec2(low + step), ivec2(0), textureSize(smoke, 0) - 1);
-    float other = closeness(min(ivec2(v_depths.z * (vec2(texel) + 0.5)), last));
-    vec2 share = mix(1.0 - f, f, step);
-    float weight = share.x * share.y / (0.02 + abs(other / own - 1.0)) + 1e-4;
-    sum += weight * texelFetch(smoke, texel, 0);
-    weights += weight;
-  }
-  picture_out = sum / weights;
+  vec2 place = gl_FragCoord.xy / v_depths.z - 0.5, low = floor(place), f = place - low, g = 1.0 - f;
+  ivec2 a = max(ivec2(low), 0), d = min(ivec2(low) + 1, textureSize(smoke, 0) - 1);
+  ivec2 b = ivec2(d.x, a.y), c = ivec2(a.x, d.y);
+  // Premultiplied, and what is left.
+  vec4 at_a = texelFetch(smoke, a, 0), at_b = texelFetch(smoke, b, 0);
+  vec4 at_c = texelFetch(smoke, c, 0), at_d = texelFetch(smoke, d, 0);
+  if (min(min(at_a.a, at_b.a), min(at_c.a, at_d.a)) == 1.0) discard;
+  float by_own = 1.0 / closeness(ivec2(gl_FragCoord.xy));
+  float w_a = weight(a, g.x * g.y, by_own), w_b = weight(b, f.x * g.y, by_own);
+  float w_c = weight(c, g.x * f.y, by_own), w_d = weight(d, f.x * f.y, by_own);
+  vec4 sum = (w_a * at_a + w_b * at_b + w_c * at_c + w_d * at_d) / (w_a + w_b + w_c + w_d);
+  picture_out = vec4(sum.rgb, 1.0 - sum.a);
 }

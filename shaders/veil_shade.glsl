@@ -1,5 +1,5 @@
 // The shade of liquids and smoke on what has been drawn: a factor of its colour, or with LAYER, for
-// shade without a colour, black that covers it.
+// shade without a colour, what is left of it.
 #include "light.glsl"
 #include "colour.glsl"
 #include "shading.glsl"
@@ -31,7 +31,7 @@ void main() {
   float share = sun / (sun + dot(sky_light(n.y), vec3(0.333)) + 1e-4);
   vec3 shade = srgb_from_linear(1.0 - behind * share * (1.0 - left.rgb));
 #ifdef LAYER
-  picture_out = vec4(0.0, 0.0, 0.0, 1.0 - shade.g);
+  picture_out = vec4(0.0, 0.0, 0.0, shade.g);
 #else
   picture_out = vec4(shade, 1.0);
 #endif

@@ -30,12 +30,17 @@ using TargetId = DeviceId<struct TargetTag>;
 enum class BufferUse : uint8_t { vertex, index, uniform };
 enum class TextureFormat : uint8_t { r8, rgba8, rgba8_linear_filter, r8_linear_filter };
 enum class Topology : uint8_t { triangles, triangle_strip };
+/// The alpha of a target is what is left to see of what lies under it: 1 where nothing has been
+/// drawn, 0 under what is opaque. (The other way round, coverage of samples by alpha would leave
+/// its own value there.) What is drawn says by its alpha how much it covers, except with `none`,
+/// which stores it.
 enum class Blend : uint8_t {
   none,
   alpha,
   premultiplied,
   add,       ///< what is drawn and what was there
   multiply,  ///< what was there, times what is drawn
+  under,     ///< what was there, over what is drawn, which is opaque
 };
 enum class DepthTest : uint8_t { none, less_equal, greater };
 enum class Cull : uint8_t { none, back, front };
@@ -73,10 +78,10 @@ struct PipelineDesc {
   bool depth_write = true;
   Cull cull = Cull::back;
   bool colour_write = true;
-  bool alpha_to_coverage = false;
-  bool covers_target = false;  ///< every draw replaces the colour of the whole target
-  float depth_bias = 0;        ///< in depth steps (polygon offset units)
-  float depth_slope_bias = 0;  ///< times the depth slope
+  bool alpha_to_coverage = false;  ///< leaves nothing where it covers
+  bool covers_target = false;      ///< every draw replaces the colour of the whole target
+  float depth_bias = 0;            ///< in depth steps (polygon offset units)
+  float depth_slope_bias = 0;      ///< times the depth slope
 };
 
 enum class ColourAttachment : uint8_t {
@@ -100,21 +105,24 @@ struct TargetDesc {
   DepthAttachment depth = DepthAttachment::buffer;
 };
 
+/// Pixels from the top left of the target; half open.
+struct ScissorRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 struct PassDesc {
   TargetId target;
   std::optional<std::array<float, 4>> clear_colour;
   bool clear_depth = true;
+  /// Then its colour is that of another target of the same size, its samples averaged: in this part.
+  TargetId averages{};
+  ScissorRect averaged_area{};
 };
 
 struct UniformRange {
   BufferId buffer;
   uint32_t offset = 0;  ///< a multiple of 256
   uint32_t size = 0;
-};
-
-/// Pixels from the top left of the target; half open.
-struct ScissorRect {
-  int x = 0, y = 0, width = 0, height = 0;
 };
 
 struct DrawCall {

@@ -164,14 +164,22 @@ bool DeviceLedger::begin_pass(const PassDesc& pass) {
   if (current_ || !t) return false;
   current_ = pass.target;
   ++stats_.passes;
+  const Target* averaged = targets_.find(pass.averages);
+  if (pass.averages && !check_average(pass, averaged, t)) return std::exchange(current_, {}), false;
   const int32_t shape[] = {t->desc.width,       t->desc.height,     t->desc.samples,
                            int(t->desc.colour), int(t->desc.depth), int(pass.clear_depth)};
   mix(shape);
   if (pass.clear_colour) mix(*pass.clear_colour);
   depth_is_fresh_ = pass.clear_depth || t->desc.depth == DepthAttachment::none;
-  const bool all =
-      depth_is_fresh_ && (pass.clear_colour || t->desc.colour == ColourAttachment::none);
+  const bool all = depth_is_fresh_ &&
+                   (pass.clear_colour || averaged || t->desc.colour == ColourAttachment::none);
   pass_content_ = hash_bytes(shape, sizeof shape, all ? 1 : t->held);
+  if (averaged) {
+    mix(averaged->desc.samples);
+    mix(pass.averaged_area);
+    pass_content_ = hash_bytes(&pass.averaged_area, sizeof pass.averaged_area, pass_content_);
+    pass_content_ = hash_bytes(&averaged->held, sizeof averaged->held, pass_content_);
+  }
   if (pass.clear_colour)
     pass_content_ = hash_bytes(&*pass.clear_colour, sizeof *pass.clear_colour, pass_content_);
   return true;
@@ -183,6 +191,24 @@ bool DeviceLedger::end_pass() {
   else
     settle(targets_.find(current_)->held, pass_content_);
   return std::exchange(current_, {}).value != 0;
+}
+
+bool DeviceLedger::check_average(const PassDesc& pass, const Target* from, const Target* to) {
+  const ScissorRect& area = pass.averaged_area;
+  const char* wrong = nullptr;
+  if (!from)
+    wrong = "a target that does not exist";
+  else if (from == to)
+    wrong = "the target itself";
+  else if (from->desc.width != to->desc.width || from->desc.height != to->desc.height)
+    wrong = "a target of another size";
+  else if (from->desc.colour == ColourAttachment::none || !to->colour)
+    wrong = "a target without colour";
+  else if (area.x < 0 || area.y < 0 || area.width < 1 || area.height < 1 ||
+           area.x + area.width > to->desc.width || area.y + area.height > to->desc.height)
+    wrong = "an area outside the target";
+  if (wrong) fault(std::string("begin_pass with the average of ") + wrong);
+  return !wrong;
 }
 
 bool DeviceLedger::check_resolve(const Target* from, const Target* to) {

@@ -142,6 +142,7 @@ class DeviceLedger {
   }
   uint64_t hash_of(const DrawCall& call, const Pipeline& pipeline, uint64_t seed);
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
+  bool check_average(const PassDesc& pass, const Target* from, const Target* to);
   bool check_resolve(const Target* from, const Target* to);
   void settle(uint64_t& held, uint64_t content);
 

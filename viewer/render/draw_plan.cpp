@@ -213,11 +213,12 @@ class Planner {
     if (e.selected && item.layer != Layer::outlined)  // the outline may be hidden in a heap
       for (size_t c = 0; c < 3; ++c)
         g.colour[c] += 0.3f * (scene_.selection_colour[int(c)] - g.colour[c]);
+    if (item.layer != Layer::blended) g.colour[3] = 0;  // what is left of what is behind
     if (item.layer == Layer::outlined) {
       const double depth = std::max((e.centre - view_.eye).dot(view_.forward), 1e-3);
       const float pixel = float(depth / view_.pixels_per_radian);
       const Vec4f& c = scene_.selection_colour;
-      g.colour = {c.x(), c.y(), c.z(), c.w()};
+      g.colour = {c.x(), c.y(), c.z(), 0};
       g.look[3] += 2.5f * scene_.ui_scale * scene_.resolution * pixel;
     }
     return g;

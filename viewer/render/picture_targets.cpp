@@ -35,7 +35,7 @@ Status PictureTargets::prepare(int width, int height, float resolution,
   Status s = make(picture_, d);
   d.width = drawn_width;
   d.height = drawn_height;
-  if (s && many && fewer) s = make(small_, d);
+  if (s && many) s = make(world_, d);
   if (s && (many || fewer)) {
     d.samples = quality.samples;
     d.depth = DepthAttachment::buffer;
@@ -64,7 +64,7 @@ Status PictureTargets::prepare(int width, int height, float resolution,
 }
 
 void PictureTargets::release() {
-  for (TargetId* t : {&canvas_, &small_, &picture_, &shadow_, &contact_[0], &contact_[1]}) {
+  for (TargetId* t : {&canvas_, &world_, &picture_, &shadow_, &contact_[0], &contact_[1]}) {
     if (*t) device_.destroy(*t);
     *t = {};
   }

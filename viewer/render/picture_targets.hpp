@@ -22,8 +22,8 @@ class PictureTargets {
   int drawn_height() const { return drawn_height_; }
   /// Drawn into: many samples, or fewer pixels than the picture has, or both.
   TargetId canvas() const { return canvas_ ? canvas_ : picture_; }
-  /// The canvas with one sample: the picture, unless that has more pixels.
-  TargetId averaged() const { return is_reduced() ? (small_ ? small_ : canvas_) : picture_; }
+  /// As many pixels as the canvas, one sample: the canvas itself unless that has many.
+  TargetId averaged() const { return world_ ? world_ : canvas(); }
   bool is_reduced() const { return drawn_width_ != width_ || drawn_height_ != height_; }
   TargetId picture() const { return picture_; }  ///< one sample, readable
   TargetId shadow() const { return shadow_; }
@@ -39,7 +39,7 @@ class PictureTargets {
   Device& device_;
   int width_ = 0, height_ = 0, drawn_width_ = 0, drawn_height_ = 0;
   QualityValues quality_{};
-  TargetId canvas_, small_, picture_, shadow_;
+  TargetId canvas_, world_, picture_, shadow_;
   std::array<TargetId, 2> contact_;
 };
 

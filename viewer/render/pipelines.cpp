@@ -216,13 +216,28 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   d.attributes = {{0, 0, AttributeType::f32, 2, 0}};
   d.stride = {2 * sizeof(float), 0};
   d.uniform_blocks = {"Frame"};
-  p.ground_bare = maker.make("ground_bare", d, "ground.vert", "ground_bare.frag");
-  d.textures = {"shadow_map", "contact_map"};
-  p.ground = maker.make("ground", d, "ground.vert", "ground.frag");
+  d.colour_write = false;
+  p.ground_depth = maker.make("ground_depth", d, "ground_depth.vert", "shadow.frag");
+  d.colour_write = true;
+  for (const bool under : {false, true}) {
+    if (under) {
+      d.depth_test = DepthTest::none;
+      d.depth_write = false;
+      d.blend = Blend::under;
+    }
+    d.textures = {};
+    p.ground_bare[under] = maker.make("ground_bare", d, "ground.vert", "ground_bare.frag");
+    d.textures = {"shadow_map", "contact_map"};
+    p.ground[under] = maker.make("ground", d, "ground.vert", "ground.frag");
+  }
   d = screen_desc();
-  d.depth_test = DepthTest::less_equal;
+  d.covers_target = false;
   d.uniform_blocks = {"Frame"};
-  p.sky = maker.make("sky", d, "sky.vert", "sky.frag");
+  d.blend = Blend::under;
+  p.sky[1] = maker.make("sky", d, "sky.vert", "sky.frag");
+  d.blend = Blend::none;
+  d.depth_test = DepthTest::less_equal;
+  p.sky[0] = maker.make("sky", d, "sky.vert", "sky.frag");
 
   for (const bool line : {true, false}) {
     const char* vertex = line ? "line.vert" : "point.vert";
@@ -267,9 +282,13 @@ void Pipelines::destroy(Device& device) {
                          &blur_x,
                          &blur_y,
                          &enlarge,
-                         &ground,
-                         &ground_bare,
-                         &sky,
+                         &ground_depth,
+                         &ground[0],
+                         &ground[1],
+                         &ground_bare[0],
+                         &ground_bare[1],
+                         &sky[0],
+                         &sky[1],
                          &line,
                          &line_hidden,
                          &line_over,

@@ -17,7 +17,9 @@ struct Pipelines {
   PipelineId shadow, shadow_two_sided, sphere_shadow;
   PipelineId contact, sphere_contact, blur_x, blur_y;
   PipelineId enlarge;
-  PipelineId ground, ground_bare, sky;
+  PipelineId ground_depth;
+  /// [0] behind what has been drawn, by depth; [1] under it, by its opacity.
+  std::array<PipelineId, 2> ground, ground_bare, sky;
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;
   PipelineId ui;

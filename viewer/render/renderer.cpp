@@ -1,5 +1,7 @@
 #include "viewer/render/renderer.hpp"
 
+#include "viewer/render/background.hpp"
+#include "viewer/render/drawn_area.hpp"
 #include "viewer/render/frame_setup.hpp"
 #include "viewer/render/ground_plan.hpp"
 #include "viewer/render/marks.hpp"
@@ -31,6 +33,9 @@ class StreamBuffer {
   Device& device_;
   BufferId id_;
 };
+
+/// A canvas that leaves all of what lies under it.
+constexpr std::array<float, 4> nothing_drawn = {0, 0, 0, 1};
 
 class RendererImpl final : public Renderer {
  public:
@@ -71,6 +76,7 @@ class RendererImpl final : public Renderer {
     image.channels = 4;
     image.pixels.resize(size_t(image.width) * size_t(image.height) * 4);
     device_.read_pixels(shown_.target, image.pixels);
+    for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
     return check_device("reading the picture back");
   }
   void present() override {
@@ -100,8 +106,12 @@ class RendererImpl final : public Renderer {
                     PipelineId ball = {});
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
-  void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline);
-  void draw_solid(const RenderScene& scene);
+  void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
+                   const std::optional<ScissorRect>& within = {});
+  void draw_bodies(const RenderScene& scene);
+  void draw_background(const RenderScene& scene, const FrameSetup& setup, bool under);
+  void draw_canvas(const RenderScene& scene, const FrameSetup& setup, bool under, bool smoke_last);
+  void finish_world(bool is_averaged);
   Status draw_world(const RenderScene& scene, PictureTargets& targets, FrameReport& report);
   Status prepare_whole(int width, int height);
   Result<FrameReport> finish_picture(const UiDrawList& panels, const Finished& picture,
@@ -131,6 +141,8 @@ class RendererImpl final : public Renderer {
   StreamBuffer ground_corners_, ground_triangles_;
   DrawPlan plan_;
   GroundPlan ground_plan_;
+  /// What of the canvas is looked at where ground and sky come under it; none: nothing.
+  std::optional<ScissorRect> canvas_area_;
   uint64_t frame_ = 0;
 };
 
@@ -185,29 +197,37 @@ void RendererImpl::draw_shadow_passes(const RenderScene& scene, const FrameSetup
   }
 }
 
-void RendererImpl::draw_ground(uint32_t first, uint32_t count, PipelineId pipeline) {
+void RendererImpl::draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
+                               const std::optional<ScissorRect>& within) {
   if (count == 0) return;
   DrawCall c = call(pipeline);
   c.vertices = ground_corners_.id();
   c.indices = ground_triangles_.id();
   c.first = first;
   c.count = count;
+  c.scissor = within;
   device_.draw(c);
 }
 
-void RendererImpl::draw_solid(const RenderScene& scene) {
+void RendererImpl::draw_bodies(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
                pipelines_.ball[fine]);
   draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
+}
+
+void RendererImpl::draw_background(const RenderScene& scene, const FrameSetup& setup, bool under) {
   if (scene.ground.visible) {
-    draw_ground(0, ground_plan_.shaded, pipelines_.ground);
+    draw_ground(0, ground_plan_.shaded, pipelines_.ground[under]);
     draw_ground(ground_plan_.shaded, uint32_t(ground_plan_.triangles.size()) - ground_plan_.shaded,
-                pipelines_.ground_bare);
+                pipelines_.ground_bare[under]);
   }
-  DrawCall sky = call(pipelines_.sky);
-  sky.count = 3;
+  DrawCall sky = call(pipelines_.sky[under]);
+  sky.count = 6 * sky_columns * sky_rows;
+  const int rows = rows_with_sky(scene, setup);
+  if (rows == 0) return;
+  sky.scissor = ScissorRect{0, 0, targets_now_->drawn_width(), rows};
   device_.draw(sky);
 }
 
@@ -245,6 +265,38 @@ void RendererImpl::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffe
   }
 }
 
+/// What needs every sample: edges of bodies, and the ground too unless it comes `under` them later.
+/// Leaves its last pass open.
+void RendererImpl::draw_canvas(const RenderScene& scene, const FrameSetup& setup, bool under,
+                               bool smoke_last) {
+  const TargetId canvas = targets_now_->canvas();
+  const bool soft = scene.has_soft_matter();
+  device_.begin_pass({canvas, nothing_drawn, true});
+  if (under && scene.ground.visible && canvas_area_)
+    draw_ground(0, uint32_t(ground_plan_.triangles.size()), pipelines_.ground_depth, canvas_area_);
+  draw_bodies(scene);
+  if (!under) draw_background(scene, setup, false);
+  if (soft) {
+    device_.end_pass();
+    soft_.draw_liquids(scene, setup, canvas, call({}));
+    soft_.draw_smoke(scene, setup, call({}));
+    device_.begin_pass({canvas, {}, false});
+  }
+  draw_blended(scene);
+  if (soft && !smoke_last) soft_.cover_with_smoke(call({}));
+}
+
+/// From what was drawn to the picture, of one sample and with all its pixels.
+void RendererImpl::finish_world(bool is_averaged) {
+  const PictureTargets& t = *targets_now_;
+  if (t.is_reduced()) {
+    if (!is_averaged && t.canvas() != t.averaged()) device_.resolve(t.canvas(), t.averaged());
+    enlarge();
+  } else if (t.canvas() != t.picture()) {
+    device_.resolve(is_averaged ? t.averaged() : t.canvas(), t.picture());
+  }
+}
+
 /// The world and its words, into targets that were prepared.
 Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& targets,
                                 FrameReport& report) {
@@ -267,21 +319,29 @@ Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& target
   ground_triangles_.fill(std::as_bytes(std::span(ground_plan_.triangles)));
 
   draw_shadow_passes(scene, setup);
-  device_.begin_pass({targets.canvas(), std::array<float, 4>{0, 0, 0, 1}, true});
-  draw_solid(scene);
-  if (soft) {
-    device_.end_pass();
-    soft_.draw_liquids(scene, setup, targets.canvas(), call({}));
-    soft_.draw_smoke(scene, setup, call({}));
-    device_.begin_pass({targets.canvas(), {}, false});
-  }
-  draw_blended(scene);
-  if (soft) soft_.cover_with_smoke(call({}));
+  // Liquids look through to what is behind them.
+  const bool under = targets.canvas() != targets.averaged() && scene.fluids.empty() &&
+                     rim_is_hidden(scene, setup);
+  // Marks lie over smoke.
+  const bool smoke_last = under && lines.all.empty() && points.all.empty();
+  canvas_area_ = ScissorRect{0, 0, width, height};
+  if (smoke_last && !soft) canvas_area_ = drawn_area(scene, setup.view);
+  draw_canvas(scene, setup, under, smoke_last);
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();
-  if (targets.canvas() != targets.averaged()) device_.resolve(targets.canvas(), targets.averaged());
-  if (targets.is_reduced()) enlarge();
+  if (under) {
+    PassDesc pass{targets.averaged(), nothing_drawn, false};
+    if (canvas_area_) {
+      pass.averages = targets.canvas();
+      pass.averaged_area = *canvas_area_;
+    }
+    device_.begin_pass(pass);
+    if (soft && smoke_last) soft_.cover_with_smoke(call({}));
+    draw_background(scene, setup, true);
+    device_.end_pass();
+  }
+  finish_world(under);
   ui_.draw_words(scene, setup.camera, targets.picture(), targets.width(), targets.height());
   report.visible_instances += plan_.visible;
   report.culled_instances += plan_.culled;

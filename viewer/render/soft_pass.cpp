@@ -224,7 +224,7 @@ void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, con
   if (!smoke_area_) return;
   soft_.veil[1] = float(smoke_scale_);
   device_.update_buffer(uniforms_, bytes_of(soft_));
-  device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 0}, false});
+  device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 1}, false});
   const TextureId depth = device_.depth_texture(behind_);
   if (shade) {
     DrawCall c = call(base, pipelines_.veil_layer, {depth, veil_texture_});

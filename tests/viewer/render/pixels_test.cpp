@@ -196,6 +196,30 @@ TEST_CASE("smoke of half the pixels looks as smoke of all of them, also at the e
   CHECK(far < covered / 500);
 }
 
+TEST_CASE("ground and sky laid under bodies look as drawn among their samples") {
+  // Where there are liquids, ground and sky have all samples: here one without a drop.
+  Studio studio("auto");
+  for (RenderScene scene : {everything(), test::demo_scene(), test::soft_scene()}) {
+    scene.fluids.clear();
+    scene.smoke.clear();
+    const Image under = studio.picture(scene);
+    const uint64_t hash = studio.hash;
+    scene.fluids.push_back({});
+    const Image among = studio.picture(scene);
+    CHECK(studio.hash != hash);
+    REQUIRE(under.pixels.size() == among.pixels.size());
+    int most = 0;
+    size_t rounded = 0;
+    for (size_t i = 0; i < under.pixels.size(); ++i) {
+      const int d = std::abs(int(under.pixels[i]) - int(among.pixels[i]));
+      most = std::max(most, d);
+      rounded += d > 1;
+    }
+    CHECK(most <= 4);  // a step for the average, and one for each see-through thing over it
+    CHECK(rounded < under.pixels.size() / 200);
+  }
+}
+
 TEST_CASE("all resources are given back") {
   Studio studio("auto");
   studio.picture(everything());

@@ -16,7 +16,7 @@ namespace tumble {
   X(BindRenderbuffer, BINDRENDERBUFFER)                               \
   X(BindTexture, BINDTEXTURE)                                         \
   X(BindVertexArray, BINDVERTEXARRAY)                                 \
-  X(BlendFunc, BLENDFUNC)                                             \
+  X(BlendFuncSeparate, BLENDFUNCSEPARATE)                             \
   X(BlitFramebuffer, BLITFRAMEBUFFER)                                 \
   X(BufferData, BUFFERDATA)                                           \
   X(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)                   \

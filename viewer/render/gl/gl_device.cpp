@@ -138,10 +138,16 @@ class GlDevice final : public Device {
   }
   void blit(TargetId from, GLuint to, GLbitfield what) {
     const TargetDesc& d = ledger_.find(from)->desc;
+    blit(from, to, what, {0, 0, d.width, d.height});
+  }
+  void blit(TargetId from, GLuint to, GLbitfield what, const ScissorRect& area) {
+    const DeviceLedger::Target& t = *ledger_.find(from);
+    const GLint x0 = area.x, x1 = x0 + area.width, y1 = t.desc.height - area.y,
+                y0 = y1 - area.height;
     gl_.Disable(GL_SCISSOR_TEST);
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, ledger_.find(from)->native);
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, t.native);
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
-    gl_.BlitFramebuffer(0, 0, d.width, d.height, 0, 0, d.width, d.height, what, GL_NEAREST);
+    gl_.BlitFramebuffer(x0, y0, x1, y1, x0, y0, x1, y1, what, GL_NEAREST);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   }
   void set_scissor(const std::optional<ScissorRect>& scissor) {
@@ -239,6 +245,10 @@ void GlDevice::begin_put_off() {
     clear |= GL_DEPTH_BUFFER_BIT;
   }
   if (clear) gl_.Clear(clear);
+  if (pass.averages) {
+    blit(pass.averages, t.native, GL_COLOR_BUFFER_BIT, pass.averaged_area);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
+  }
 }
 
 void GlDevice::draw(const DrawCall& call) {

@@ -28,20 +28,26 @@ GLenum gl_type(AttributeType t) {
                                    : GL_UNSIGNED_BYTE;
 }
 
-/// Of what is drawn, and of what was there.
-std::pair<GLenum, GLenum> blend_factors(Blend blend) {
-  switch (blend) {
+struct BlendFactors {
+  GLenum drawn, there;                          ///< of colours
+  GLenum there_alpha = GL_ONE_MINUS_SRC_ALPHA;  ///< of what is left; what is drawn adds nothing
+};
+BlendFactors blend_factors(const PipelineDesc& desc) {
+  switch (desc.blend) {
     case Blend::alpha:
       return {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA};
     case Blend::add:
-      return {GL_ONE, GL_ONE};
+      return {GL_ONE, GL_ONE, GL_ONE};
     case Blend::multiply:
-      return {GL_ZERO, GL_SRC_COLOR};
+      return {GL_ZERO, GL_SRC_COLOR, GL_ONE};
+    case Blend::under:
+      return {GL_DST_ALPHA, GL_ONE, GL_ZERO};
     case Blend::premultiplied:
+      return {GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
     case Blend::none:
       break;
   }
-  return {GL_ONE, GL_ONE_MINUS_SRC_ALPHA};
+  return {GL_ONE, GL_ZERO, GL_ZERO};
 }
 
 void enable(const GlFunctions& gl, GLenum what, bool on) {
@@ -122,10 +128,12 @@ void GlPrograms::release(unsigned name) {
 
 void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program) {
   gl.UseProgram(program);
-  enable(gl, GL_BLEND, desc.blend != Blend::none);
-  if (desc.blend != Blend::none) {
-    const auto [source, there] = blend_factors(desc.blend);
-    gl.BlendFunc(source, there);
+  // The alpha that says which samples are covered is not what those leave, which is nothing.
+  const bool blends = desc.blend != Blend::none || desc.alpha_to_coverage;
+  enable(gl, GL_BLEND, blends);
+  if (blends) {
+    const BlendFactors f = blend_factors(desc);
+    gl.BlendFuncSeparate(f.drawn, f.there, GL_ZERO, f.there_alpha);
   }
   // Without the test GL does not write depth either.
   const bool depth = desc.depth_test != DepthTest::none || desc.depth_write;
