@@ -226,7 +226,7 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
       d.blend = Blend::under;
     }
     d.textures = {};
-    p.ground_bare[under] = maker.make("ground_bare", d, "ground.vert", "ground_bare.frag");
+    p.ground_bare[under] = maker.make("ground_bare", d, "ground_bare.vert", "ground_bare.frag");
     d.textures = {"shadow_map", "contact_map"};
     p.ground[under] = maker.make("ground", d, "ground.vert", "ground.frag");
   }
