@@ -35,6 +35,8 @@ struct PanelEntry {
   std::optional<Action> toggle;
   float usual_height;  ///< [UI units] before its contents have been measured
   void (*draw)(PanelContext&);
+  /// Stays at the panel's lower edge while the contents above it scroll; null: nothing.
+  void (*footer)(PanelContext&) = nullptr;
 };
 std::span<const PanelEntry> all_panels();
 
@@ -50,6 +52,7 @@ void draw_events_panel(PanelContext&);
 void draw_help_panel(PanelContext&);
 void draw_inspector_panel(PanelContext&);
 void draw_lesson_panel(PanelContext&);
+void draw_lesson_footer(PanelContext&);
 void draw_measure_panel(PanelContext&);
 void draw_microscope_panel(PanelContext&);
 void draw_parts_panel(PanelContext&);

@@ -33,7 +33,7 @@ constexpr PanelEntry entries[] = {
     {PanelId::events, "events", "Events", Dock::left, Action::toggle_events, 340,
      draw_events_panel},
     {PanelId::lesson, "lesson", "Lesson", Dock::left, Action::toggle_lesson, 420,
-     draw_lesson_panel},
+     draw_lesson_panel, draw_lesson_footer},
     {PanelId::parts, "parts", "Sources, forces, sensors", Dock::right, Action::toggle_parts, 300,
      draw_parts_panel},
     {PanelId::bookmarks, "bookmarks", "Time", Dock::left, Action::toggle_bookmarks, 330,

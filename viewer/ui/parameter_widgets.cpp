@@ -50,10 +50,10 @@ std::string words_of(std::string_view name) {
     std::string_view key, word;
   };
   constexpr Proper proper[] = {
-      {"gjk", "GJK"},     {"aabb", "AABB"},       {"obb", "OBB"},       {"sat", "SAT"},
-      {"rk2", "RK2"},     {"rk4", "RK4"},         {"sdf", "SDF"},       {"epa", "EPA"},
-      {"dfsph", "DFSPH"}, {"dantzig", "Dantzig"}, {"baraff", "Baraff"}, {"euler", "Euler"},
-      {"v", "V"},         {"clip", "Clip"},       {"lemke", "Lemke"}};
+      {"gjk", "GJK"},     {"aabb", "AABB"},   {"obb", "OBB"},         {"sat", "SAT"},
+      {"rk2", "RK2"},     {"rk4", "RK4"},     {"rk45", "RK45"},       {"sdf", "SDF"},
+      {"epa", "EPA"},     {"dfsph", "DFSPH"}, {"dantzig", "Dantzig"}, {"baraff", "Baraff"},
+      {"euler", "Euler"}, {"v", "V"},         {"clip", "Clip"},       {"lemke", "Lemke"}};
   std::string out;
   while (!name.empty()) {
     const size_t end = std::min(name.find('_'), name.size());

@@ -30,7 +30,9 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   // contents keep their distance from it.
   ImGui::PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, false);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding.x, 0));
-  ImGui::BeginChild("##contents", ImVec2(r.width, std::max(r.height - top, 1.0f)), false,
+  float* const footer = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("footer"), 0);
+  const float foot = panel.footer ? *footer : 0;
+  ImGui::BeginChild("##contents", ImVec2(r.width, std::max(r.height - top - foot, 1.0f)), false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav |
                         (measured ? 0 : still_window));
   ImGui::PopStyleVar();
@@ -39,9 +41,15 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
   ImGui::Dummy(ImVec2(0, std::max(padding.y - spacing, 0.0f)));
   const float end = ImGui::GetCursorPosY() - spacing;
-  height = std::ceil(top + end);
+  height = std::ceil(top + end + foot);
   ImGui::EndChild();
   ImGui::PopClipRect();
+  if (!panel.footer) return;
+  ImGui::SetCursorPos(ImVec2(padding.x, r.height - foot));
+  ImGui::BeginGroup();
+  panel.footer(context);
+  ImGui::EndGroup();
+  *footer = ImGui::GetItemRectSize().y + padding.y;
 }
 
 void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {

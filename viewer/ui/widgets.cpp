@@ -67,10 +67,24 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 c, float r, ImU32 colour) {
   }
 }
 
+/// Where the middle of a tooltip under a bar may stand nearest to where it would, so that it lies
+/// over no cross of a panel.
+float beside_crosses(const UiHost& host, float middle, float half, float y, float height) {
+  for (const auto& [name, cross] : host.widgets()) {
+    const float left = cross.x - half, right = cross.x + cross.width + half;
+    if (!name.ends_with(".close") || cross.y > y + height || cross.y + cross.height < y ||
+        middle < left || middle > right)
+      continue;
+    const bool room = right + half < ImGui::GetIO().DisplaySize.x;
+    return room && right - middle < middle - left ? right : left;
+  }
+  return middle;
+}
+
 /// Beside the panel of the last item, towards the middle of the picture, so that it covers nothing
 /// of the panel; under a bar, whose other buttons are read next; where there is no room near the
 /// pointer.
-void place_tooltip(float width) {
+void place_tooltip(const UiHost& host, float width) {
   constexpr float gap = 6;
   const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
   const float picture = ImGui::GetIO().DisplaySize.x;
@@ -78,8 +92,10 @@ void place_tooltip(float width) {
     const float middle = 0.5f * (ImGui::GetItemRectMin().x + ImGui::GetItemRectMax().x);
     const float least = 0.5f * width + gap, most = std::max(picture - least, least);
     const float below = ImGui::GetWindowPos().y + ImGui::GetWindowHeight() + gap;
-    ImGui::SetNextWindowPos({std::clamp(middle, least, most), below}, ImGuiCond_Always,
-                            {0.5f, 0.0f});
+    const float height = ImGui::GetTextLineHeight() + 2 * gap;
+    const float at =
+        beside_crosses(host, std::clamp(middle, least, most), 0.5f * width + gap, below, height);
+    ImGui::SetNextWindowPos({std::max(at, least), below}, ImGuiCond_Always, {0.5f, 0.0f});
     return;
   }
   const float y = 0.5f * (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y);
@@ -103,8 +119,8 @@ void tooltip_with_key(PanelContext& context, std::string_view text, std::string_
   const auto width_of = [](std::string_view t) {
     return ImGui::CalcTextSize(t.data(), t.data() + t.size()).x;
   };
-  place_tooltip(width_of(text) + 2 * padding +
-                (shortcut.empty() ? 0 : before_key + width_of(shortcut)));
+  place_tooltip(context.host, width_of(text) + 2 * padding +
+                                  (shortcut.empty() ? 0 : before_key + width_of(shortcut)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding, 6));
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(text.data(), text.data() + text.size());

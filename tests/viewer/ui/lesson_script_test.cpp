@@ -190,3 +190,37 @@ TEST_CASE("curves of a page outlive its choice and pages that plot nothing") {
   CHECK(rig.app->ui_state().shows(PanelId::measure));
   check_no_faults(*device);
 }
+
+TEST_CASE("the buttons that turn the pages stay in sight in a small picture beside a plot") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {800, 600, 1};
+  rig.app->open(lesson_scene(rig));
+  rig.play("wait 3\nclick lesson.page.1\nwait 3");
+  for (const char* curve : {"bodies.ball.position.y", "bodies.ball.speed", "energy.total"})
+    rig.app->ask(AddNamedCurve{curve});
+  rig.play("wait 5");
+  REQUIRE(rig.app->ui_state().shows(PanelId::measure));
+  const auto inside = [&](const char* widget) {
+    const auto panel = rig.app->ui().find("panel.lesson"), button = rig.app->ui().find(widget);
+    REQUIRE_MESSAGE((panel && button), widget);
+    CHECK_MESSAGE(button->y >= panel->y, widget);
+    CHECK_MESSAGE(button->y + button->height <= panel->y + panel->height, widget);
+  };
+  for (size_t page = 1; page < 4; ++page) {
+    CAPTURE(page);
+    CHECK(rig.app->lesson()->step == page);
+    inside("lesson.back");
+    inside("lesson.next");
+    rig.play("click lesson.next\nwait 20");  // the last one does nothing
+  }
+  rig.play("click lesson.back\nwait 5");
+  CHECK(rig.app->lesson()->step == 2);
+  // Where there is room they stand right under the text.
+  rig.picture = {1200, 900, 1};
+  rig.play("wait 5");
+  inside("lesson.next");
+  const auto panel = rig.app->ui().find("panel.lesson"), button = rig.app->ui().find("lesson.next");
+  CHECK(panel->y + panel->height - button->y - button->height < 40);
+  check_no_faults(*device);
+}

@@ -156,8 +156,10 @@ void draw_lesson_panel(PanelContext& context) {
   }
   draw_choices(context, step);
   draw_question(context, step);
-  ImGui::Dummy(ImVec2(0, 2));
-  draw_turning(context, *lesson);
+}
+
+void draw_lesson_footer(PanelContext& context) {
+  if (context.model.lesson) draw_turning(context, *context.model.lesson);
 }
 
 }  // namespace tumble
