@@ -106,7 +106,8 @@ void PointerTool::release(PointerButton button, CameraController& camera, Pointe
     out.more = more_;
     out.press_x = press_x_;
     out.press_y = press_y_;
-    if (second_) camera.focus(pressed_on_->x_world);
+    out.twice = second_;
+    if (second_ && !placing_) camera.focus(pressed_on_->x_world);
     clicked_on_ = second_ ? std::nullopt : pressed_on_;
     since_click_ = 0;
     pictures_since_click_ = 0;

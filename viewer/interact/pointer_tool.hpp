@@ -21,6 +21,7 @@ struct PointerEffects {
   double press_x = 0, press_y = 0;              ///< where a click or an arranging drag began
   double x = 0, y = 0;                          ///< where the pointer arranges to
   bool more = false;                            ///< to what is selected already
+  bool twice = false;                           ///< the click is the second of a double click
   std::optional<PointerBox> box;
   bool arrange_began = false, arrange_moved = false, arrange_ended = false;
   bool drag_began = false, drag_moved = false, drag_ended = false;
@@ -58,6 +59,8 @@ class PointerTool {
   /// Without a held button keys fly too, and what a left drag does is look around.
   bool free_flight() const { return free_flight_; }
   void set_free_flight(bool on) { free_flight_ = on; }
+  /// While clicks put something where they are, a double click does not move the camera.
+  void set_placing(bool on) { placing_ = on; }
   bool arranging() const { return mode_ == Mode::arrange; }
 
  private:
@@ -76,6 +79,7 @@ class PointerTool {
 
   Mode mode_ = Mode::idle;
   bool free_flight_ = false;
+  bool placing_ = false;
   PointerButton fly_button_ = PointerButton::right;  ///< that is held while looking around
   double press_x_ = 0, press_y_ = 0;
   double box_x_ = 0, box_y_ = 0;  ///< the other corner

@@ -209,3 +209,36 @@ TEST_CASE("a copy hangs from the world where it stands itself") {
   CHECK(aside.norm() > 0.5);
   CHECK((copy.frame_a.x - hook.frame_a.x - aside).norm() < 1e-9);
 }
+
+TEST_CASE(
+    "Esc in the middle of a gesture gives it up: what is moved goes back, what is held falls") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1400, 900, 1};
+  rig.play("wait 3\nkey Space\nclick body:ball\nkey G\nwait 3");
+  const uint64_t before = hash_of(rig);
+  rig.play("move handle:x\npress left\nby 40 0\nby 40 0\nwait 2");
+  REQUIRE(hash_of(rig) != before);
+  rig.play("key Esc\nwait 3");
+  CHECK(hash_of(rig) == before);
+  CHECK(rig.app->ui_state().handles.kind == HandleKind::move);
+  CHECK(selected(rig, "ball"));
+  rig.play("by 60 0\nrelease left\nwait 3");
+  CHECK(hash_of(rig) == before);
+
+  rig.play("key Esc\nwait 2");  // now the handles
+  CHECK(rig.app->ui_state().handles.kind == HandleKind::none);
+  rig.play("move body:ball\npress left\nby 40 0\nby 40 0\nwait 2");
+  REQUIRE(rig.app->dragging());
+  rig.play("key Esc\nby 20 0\nwait 3");
+  CHECK_FALSE(rig.app->dragging());
+  CHECK(selected(rig, "ball"));
+  rig.play("release left\nwait 2");
+  CHECK_FALSE(rig.app->dragging());
+
+  rig.play(
+      "hold Ctrl\nmove 300,60\npress left\nby 300 200\nby 200 200\nkey Esc\nrelease left\nlet "
+      "Ctrl\nwait 2");
+  CHECK(rig.app->selection().size() == 1);
+  check_no_faults(*device);
+}

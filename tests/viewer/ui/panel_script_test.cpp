@@ -180,6 +180,58 @@ TEST_CASE("what is said of a button of the bar stands under the bar, and lies ov
   }
 }
 
+TEST_CASE("a number that Esc gives up leaves nothing to be taken back") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 800, 1};
+  rig.app->ui_state().shows(PanelId::settings) = true;
+  const auto type = [&](const char* text, const char* end) {
+    rig.play(std::string("double_click settings.gravity.y\nwait 3\nkey Ctrl+A\ntext ") + text +
+             "\nwait 3\nkey " + end + "\nwait 3");
+  };
+  rig.play("key Space\nwait 3");
+  type("-3", "Enter");
+  REQUIRE(rig.app->settings().gravity.y() == -3);
+  type("-7", "Esc");
+  REQUIRE(rig.app->settings().gravity.y() == -3);
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(rig.app->settings().gravity.y() == doctest::Approx(-9.81));
+  // What is typed after that is a deed of its own.
+  type("-5", "Esc");
+  type("-4", "Enter");
+  CHECK(rig.app->settings().gravity.y() == -4);
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(rig.app->settings().gravity.y() == doctest::Approx(-9.81));
+  check_no_faults(*device);
+}
+
+TEST_CASE("what is said of a button of the bar lies over no cross of a panel") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  size_t said = 0;
+  for (const int width : {800, 1024, 1280}) {
+    CAPTURE(width);
+    rig.picture = {width, 720, 1};
+    for (const PanelId panel : {PanelId::settings, PanelId::statistics, PanelId::drawing})
+      rig.app->ui_state().shows(panel) = true;
+    rig.play("wait 4");
+    const auto widgets = rig.app->ui().widgets();
+    for (const auto& [button, place] : widgets) {
+      if (!button.starts_with("bar.") && !button.starts_with("transport.")) continue;
+      CAPTURE(button);
+      rig.play("move " + button + "\nwait 3");
+      const auto tooltip = rig.app->ui().find("tooltip");
+      if (!tooltip) continue;
+      ++said;
+      CHECK(tooltip->x >= 0);
+      CHECK(tooltip->x + tooltip->width <= float(width));
+      for (const auto& [name, cross] : rig.app->ui().widgets())
+        if (name.ends_with(".close")) CHECK_MESSAGE(!tooltip->overlaps(cross), name);
+    }
+  }
+  CHECK(said > 20);
+}
+
 TEST_CASE("the heading of a panel stays while its contents scroll, and its cross closes it") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -273,3 +273,64 @@ TEST_CASE("times of bookmarks and keys stand level with what is beside them") {
   CHECK(middle("bookmarks.0.go") == middle("bookmarks.0.name"));
   CHECK(middle("bookmarks.key.0.go") == middle("bookmarks.key.0.follow"));
 }
+
+TEST_CASE("bookmarks and keys of the flight are taken back in the order of all that was done") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  const auto marks = [&]() -> const SceneMarks& { return rig.app->marks(); };
+  rig.play("key Space\nwait 5\nkey Ctrl+B\nwait 2");  // at tick 0 or soon after
+  const uint64_t tick = rig.tick();
+  REQUIRE(marks().time.bookmarks.size() == 1);
+  rig.play("click body:box\nwait 3\nkey Del\nwait 3");
+  REQUIRE(rig.height("box") == -1);
+  rig.play("key Y\nwait 4");
+  REQUIRE(marks().flight.size() == 1);
+  rig.play(
+      "click bookmarks.0.name\nwait 2\nkey Ctrl+A\n"
+      "text touch\nkey Enter\nwait 3");
+  REQUIRE(marks().time.bookmarks[0].name == "touch");
+
+  rig.play("key Ctrl+Z\nwait 3");  // the name, whole
+  CHECK(says(rig, "Taken back: Change a bookmark"));
+  CHECK(marks().time.bookmarks[0].name == "mark 1");
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(marks().flight.empty());
+  CHECK(rig.height("box") == -1);
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(rig.height("box") > 0);
+  CHECK(marks().time.bookmarks.size() == 1);
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(marks().time.bookmarks.empty());
+  CHECK(rig.tick() == tick);
+  // And done again in the same order.
+  rig.play("key Ctrl+Shift+Z\nwait 3");
+  CHECK(marks().time.bookmarks.size() == 1);
+  rig.play("key Ctrl+Shift+Z\nwait 3\nkey Ctrl+Shift+Z\nwait 3\nkey Ctrl+Shift+Z\nwait 3");
+  CHECK(rig.height("box") == -1);
+  CHECK(marks().flight.size() == 1);
+  CHECK(marks().time.bookmarks[0].name == "touch");
+  // Which span is looped is no deed.
+  rig.play("key Ctrl+Z\nwait 2");
+  CHECK(marks().time.bookmarks[0].name == "mark 1");
+  check_no_faults(*device);
+}
+
+TEST_CASE("who clicks twice with the ruler out means one point, and stays where they look from") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1280, 720, 1};
+  rig.play("key Space\nwait 3\nkey U\nwait 3");
+  const Vec3 target = rig.app->camera().camera().target;
+  rig.play("double_click body:box\nwait 10");
+  CHECK(rig.app->ruler().view().readings.empty());
+  CHECK(rig.app->ruler().view().picked == 1);
+  CHECK(rig.app->camera().camera().target == target);
+  rig.play("wait 40\nclick body:ball\nwait 3");
+  REQUIRE(rig.app->ruler().view().readings.size() == 1);
+  CHECK(rig.app->ruler().view().readings[0].value > 1);
+  // Without it a double click looks at what was clicked, as ever.
+  rig.play("key Esc\nwait 40\ndouble_click body:ball\nwait 40");
+  CHECK(rig.app->camera().camera().target != target);
+  check_no_faults(*device);
+}

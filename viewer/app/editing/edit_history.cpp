@@ -1,5 +1,6 @@
 #include "viewer/app/editing/edit_history.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tumble {
@@ -20,12 +21,23 @@ DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick,
   return edits;
 }
 
+void EditHistory::note_beside(std::string what, std::function<void()> exchange) {
+  undone_.clear();
+  done_.push_back({std::move(what), 0, nullptr, nullptr, {}, std::move(exchange)});
+  drop_oldest();
+}
+
 std::optional<EditHistory::Back> EditHistory::go(Session& session, std::deque<Deed>& from,
                                                  std::deque<Deed>& to,
                                                  std::vector<BodyId> selected) {
   if (from.empty()) return std::nullopt;
   Deed deed = std::move(from.back());
   from.pop_back();
+  if (deed.exchange) {
+    deed.exchange();
+    to.push_back(deed);
+    return Back{std::move(deed.what), {}, true};
+  }
   to.push_back({deed.what, deed.tick, deed.edits, session.keep(), std::move(selected)});
   session.restore(std::move(deed.moment));
   return Back{std::move(deed.what), std::move(deed.selected)};
@@ -41,22 +53,37 @@ std::optional<EditHistory::Back> EditHistory::redo(Session& session, std::vector
 
 std::vector<DeedEdits> EditHistory::file_edits() const {
   std::vector<DeedEdits> out = forgotten_;
-  for (const Deed& deed : done_) out.push_back(deed.edits);
+  for (const Deed& deed : done_)
+    if (deed.edits) out.push_back(deed.edits);
   return out;
+}
+
+DeedEdits EditHistory::newest() const {
+  return std::find_if(done_.rbegin(), done_.rend(),
+                      [](const Deed& d) { return d.edits != nullptr; })
+      ->edits;
+}
+
+bool EditHistory::empty() const {
+  return std::ranges::none_of(done_, [](const Deed& d) { return d.edits != nullptr; });
 }
 
 std::vector<uint64_t> EditHistory::ticks() const {
   std::vector<uint64_t> out;
-  for (const Deed& deed : done_) out.push_back(deed.tick);
+  for (const Deed& deed : done_)
+    if (deed.edits) out.push_back(deed.tick);
   return out;
 }
 
 void EditHistory::drop_oldest() {
   size_t bytes = 0;
-  for (const Deed& deed : done_) bytes += Session::bytes(*deed.moment);
+  const auto bytes_of = [](const Deed& deed) {
+    return deed.moment ? Session::bytes(*deed.moment) : 0;
+  };
+  for (const Deed& deed : done_) bytes += bytes_of(deed);
   while (done_.size() > 1 && (done_.size() > most_deeds || bytes > most_bytes)) {
-    bytes -= Session::bytes(*done_.front().moment);
-    forgotten_.push_back(done_.front().edits);
+    bytes -= bytes_of(done_.front());
+    if (done_.front().edits) forgotten_.push_back(done_.front().edits);
     done_.pop_front();
   }
 }

@@ -3,6 +3,7 @@
 #include "viewer/app/session/session.hpp"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,26 +20,34 @@ class EditHistory {
   /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten. Gives
   /// where to note what the deed changes about the scene's file.
   DeedEdits begin(Session& session, std::string what, uint64_t tick, std::vector<BodyId> selected);
+  /// Somebody did something beside the world. `exchange` puts what was before in the place of what
+  /// is now, and what is now in its own: taking back and doing again are the same.
+  void note_beside(std::string what, std::function<void()> exchange);
   /// A moment that was left behind and is there again.
   struct Back {
     std::string what;              ///< the deed
     std::vector<BodyId> selected;  ///< the bodies that were selected then
+    bool beside = false;           ///< the world is as it was
   };
   /// Goes back to before the newest deed that holds; nothing when there is none. `selected`: now.
   std::optional<Back> undo(Session& session, std::vector<BodyId> selected);
   /// Goes to where the deed that was taken back last still held.
   std::optional<Back> redo(Session& session, std::vector<BodyId> selected);
+  /// The newest deed has come to nothing: all is as it was before it.
+  void drop_newest() { done_.pop_back(); }
   /// Another world is shown.
   void forget() { *this = EditHistory{}; }
 
   /// Of the deeds that hold, in order.
   std::vector<DeedEdits> file_edits() const;
-  /// Of the newest deed, which must be there.
-  DeedEdits newest() const { return done_.back().edits; }
-  /// At which ticks the deeds that hold were done.
+  /// Of the newest deed to the world, which must be there.
+  DeedEdits newest() const;
+  /// At which ticks the deeds to the world that hold were done.
   std::vector<uint64_t> ticks() const;
-  /// Nothing can be taken back.
-  bool empty() const { return done_.empty(); }
+  /// What was done last; "": nothing that can be taken back.
+  std::string last() const { return done_.empty() ? std::string() : done_.back().what; }
+  /// No deed to the world can be taken back.
+  bool empty() const;
 
  private:
   struct Deed {
@@ -47,6 +56,8 @@ class EditHistory {
     DeedEdits edits;
     std::shared_ptr<const Session::Kept> moment;
     std::vector<BodyId> selected;  ///< at that moment
+    /// Of a deed beside the world, which has neither edits nor a moment.
+    std::function<void()> exchange{};
   };
   /// Back to the moment of the newest deed of `from`; with the moment of now it goes to `to`.
   static std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,

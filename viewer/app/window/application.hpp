@@ -154,6 +154,7 @@ class Application {
   void route(std::span<const InputEvent> events, double dt);
   bool route_key(const KeyPressed& key);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
+  bool give_up_gesture();
   void close_something();
   void open_inspector();
   void end_building();
@@ -244,6 +245,8 @@ class Application {
   bool perform_in_time(Action action);
   bool apply_in_time(const UiRequest& request);
   void edit_marks(const std::function<void(TimeMarks&)>& change);
+  void change_marks(const std::function<void(SceneMarks&)>& change);
+  void follow_flight();
   void go_to_moment(uint64_t tick);
   void toggle_loop();
   void leave_loop();
@@ -276,6 +279,7 @@ class Application {
   uint64_t newest_tick_ = 0;   ///< seen on this course of history
   bool other_course_ = false;  ///< another one begins with the next jump
   EditHistory edits_;
+  WorldSettings settings_before_;  ///< the newest change of them
   ChoiceHistory choices_;
   std::optional<ChoiceHistory::Step> choosing_;  ///< what the scene is being opened for
   Duplicator duplicator_;

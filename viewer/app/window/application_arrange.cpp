@@ -130,7 +130,9 @@ void Application::paste() {
       hit ? hit->x_world
           : ray.origin + (view.camera.target - view.camera.eye).norm() * ray.direction.normalized();
   if (hit) place.normal = hit->normal;
-  const DeedEdits edits = begin_edit(fmt::format("Paste {} bodies", clipboard_.count()));
+  const DeedEdits edits =
+      begin_edit(clipboard_.count() == 1 ? "Paste a body"
+                                         : fmt::format("Paste {} bodies", clipboard_.count()));
   duplicator_.await(clipboard_.paste(session(), scene_.file.path.string(), place, edits, refusal_));
   parts_.name_springs(session(), edits);
   parts_.note();

@@ -50,8 +50,10 @@ void Application::take_back() {
     if (!go_back_on(choices_.back())) ui_.toast(ToastKind::info, "There is nothing to take back");
     return;
   }
-  other_course_ = true;
-  selected_then_ = std::move(back->selected);
+  if (!back->beside) {
+    other_course_ = true;
+    selected_then_ = std::move(back->selected);
+  }
   ui_.toast(ToastKind::info, "Taken back: " + back->what);
 }
 
@@ -65,8 +67,10 @@ void Application::do_again() {
     if (!go_back_on(choices_.again())) ui_.toast(ToastKind::info, "There is nothing to do again");
     return;
   }
-  other_course_ = true;
-  selected_then_ = std::move(back->selected);
+  if (!back->beside) {
+    other_course_ = true;
+    selected_then_ = std::move(back->selected);
+  }
   ui_.toast(ToastKind::info, "Done again: " + back->what);
 }
 
@@ -119,7 +123,15 @@ void Application::duplicate_selected() {
 
 void Application::change_settings(const WorldSettings& wanted) {
   const std::vector<std::string> names = changed_settings(settings_.value(), wanted);
-  const DeedEdits edits = begin_edit(fmt::format("Change {}", fmt::join(names, ", ")), true);
+  const std::string what = fmt::format("Change {}", fmt::join(names, ", "));
+  const bool goes_on = in_gesture() && gesture_ == what && edits_.last() == what;
+  if (!goes_on) settings_before_ = settings_.value();
+  const DeedEdits edits = begin_edit(what, true);
+  if (goes_on && changed_settings(settings_before_, wanted).empty()) {
+    // Esc while a number is typed, or a slider that was pulled back.
+    edits_.drop_newest();
+    gesture_.clear();
+  }
   session().post([edits, wanted](World& world) {
     if (edits->empty()) edits->push_back(ChangedSettings{world.settings(), wanted});
     if (auto* change = std::get_if<ChangedSettings>(&edits->front())) change->after = wanted;

@@ -43,6 +43,7 @@ void Application::route(std::span<const InputEvent> events, double dt) {
       for_scene.push_back(event);
     }
   }
+  pointer_.set_placing(ui_.building || (ui_.ruling && ui_.shows(PanelId::ruler)));
   const auto beside = area_.places() ? second_.view(world_.view()) : std::nullopt;
   apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
                         camera(), gestures(), !host_.wants_keys() && !ui_.shows(PanelId::scenes)));
@@ -68,6 +69,25 @@ bool Application::route_key(const KeyPressed& key) {
   return action.has_value();
 }
 
+/// What the pointer is about: it lets go of a body that it pulls, and puts back one that it moves.
+/// False when it is about nothing.
+bool Application::give_up_gesture() {
+  if (pointer_.drag().active()) {
+    end_drag();
+  } else if (pointer_.tool().arranging()) {
+    const bool moved = arranger_.last().has_value();
+    pointer_.cancel();
+    arranger_.end();
+    if (moved) take_back();
+  } else if (box_) {
+    pointer_.cancel();
+    box_.reset();
+  } else {
+    return false;
+  }
+  return true;
+}
+
 void Application::close_something() {
   if (question_) return answer(question_->answers.size() - 1);
   for (const PanelId id : {PanelId::scenes, PanelId::help, PanelId::save})
@@ -77,6 +97,7 @@ void Application::close_something() {
       host_.give_up_keys();
       return;
     }
+  if (give_up_gesture()) return;
   const SessionCounters counters = session().counters();
   if (counters.asking_seconds > slow_question_seconds) return session().cancel_question();
   if (counters.under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
@@ -111,7 +132,11 @@ void Application::apply(const PointerEffects& effects) {
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
-  if (ruling && effects.selected && !effects.drag_began) return rule_at(*effects.selected);
+  if (ruling && effects.selected && !effects.drag_began) {
+    // Nobody measures from a place to itself: a double click means it once.
+    if (!effects.twice) rule_at(*effects.selected);
+    return;
+  }
   const Overlays& drawn = ui_.overlays;
   const bool contacts_drawn =
       drawn.contacts || drawn.normals || drawn.forces || drawn.friction_cones;

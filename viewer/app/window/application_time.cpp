@@ -7,6 +7,37 @@
 #include <fmt/format.h>
 
 namespace tumble {
+namespace {
+
+bool is_same(const CameraKey& a, const CameraKey& b) {
+  return a.time == b.time && a.camera.eye == b.camera.eye && a.camera.target == b.camera.target &&
+         a.camera.fov_deg == b.camera.fov_deg && a.follow == b.follow && a.follow_x == b.follow_x;
+}
+
+/// What was done to a list in time order, and at which time: "Set a bookmark at 0.40 s". "" where
+/// nothing was.
+template <class Mark>
+std::string list_deed(const std::vector<Mark>& before, const std::vector<Mark>& now, const char* of,
+                      const std::function<bool(const Mark&, const Mark&)>& same,
+                      const std::function<double(const Mark&)>& time_of) {
+  const auto [b, n] = std::ranges::mismatch(before, now, same);
+  if (b == before.end() && n == now.end()) return {};
+  const char* verb = now.size() > before.size()   ? "Set"
+                     : now.size() < before.size() ? "Delete"
+                                                  : "Change";
+  return fmt::format("{} {} at {:.2f} s", verb, of, time_of(now.size() < before.size() ? *b : *n));
+}
+
+std::string mark_deed(const SceneMarks& before, const SceneMarks& now, const TickClock& clock) {
+  const std::string deed = list_deed<Bookmark>(
+      before.time.bookmarks, now.time.bookmarks, "a bookmark", std::equal_to<>(),
+      [&](const Bookmark& b) { return clock.time_of(b.tick); });
+  if (!deed.empty()) return deed;
+  return list_deed<CameraKey>(before.flight, now.flight, "a key of the flight", is_same,
+                              [](const CameraKey& k) { return k.time; });
+}
+
+}  // namespace
 
 /// What the marks of the scene that is shown are kept by.
 std::string Application::marked_scene() const {
@@ -41,7 +72,32 @@ void Application::look_at_marks() {
 }
 
 void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
-  marks_.change([&](SceneMarks& marks) { change(marks.time); });
+  change_marks([&](SceneMarks& marks) { change(marks.time); });
+}
+
+/// What becomes of bookmarks and flight can be taken back; which span is looped is no deed.
+void Application::change_marks(const std::function<void(SceneMarks&)>& change) {
+  auto before = std::make_shared<SceneMarks>(marks_.marks());
+  marks_.change(change);
+  std::string what = mark_deed(*before, marks_.marks(), marks_.clock());
+  if (what.empty()) return;
+  const bool goes_on = in_gesture() && gesture_ == what && edits_.last() == what;
+  gesture_ = in_gesture() ? what : std::string();
+  if (goes_on) return;  // a name that is being typed
+  choices_.forget_taken_back();
+  edits_.note_beside(std::move(what), [this, before] {
+    marks_.change([&](SceneMarks& marks) {
+      std::swap(marks.time.bookmarks, before->time.bookmarks);
+      std::swap(marks.flight, before->flight);
+    });
+    follow_flight();
+  });
+}
+
+/// Who flies goes on along the keys as they are now.
+void Application::follow_flight() {
+  if (!own_flight_ || !camera_.flying()) return;
+  marks_.marks().flight.empty() ? camera_.leave_path() : fly();
 }
 
 /// A recording steps the world frame by frame, and time only goes on in it; says so while there is
@@ -95,7 +151,7 @@ void Application::toggle_loop() {
 /// The camera of now becomes a key at this moment.
 void Application::add_camera_key() {
   CameraKey key{world_.frame().time, camera_.camera(), {}};
-  marks_.change([&](SceneMarks& marks) {
+  change_marks([&](SceneMarks& marks) {
     const auto same = std::ranges::find(marks.flight, key.time, &CameraKey::time);
     if (same != marks.flight.end()) {
       // Set anew it goes on following what it did.
@@ -137,7 +193,7 @@ void Application::follow_from_key(const FollowFromKey& wish) {
 
 /// Who flies goes on along the keys as they are then.
 void Application::change_flight(const std::function<void(std::vector<CameraKey>&)>& change) {
-  marks_.change([&](SceneMarks& marks) { change(marks.flight); });
+  change_marks([&](SceneMarks& marks) { change(marks.flight); });
   if (own_flight_ && camera_.flying() && !marks_.marks().flight.empty()) return fly();
   camera_.leave_path();
 }

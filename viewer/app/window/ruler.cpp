@@ -46,6 +46,7 @@ void add_words(const Vec3& x, std::string text, RenderScene& picture) {
   label.colour = ruler_colour;
   label.size = 16;
   label.anchor = Vec3f(0.5f, 1.25f, 0);
+  label.plate = 0.7f;  // the line that it belongs to may run behind it
   picture.texts.push_back(std::move(label));
 }
 
