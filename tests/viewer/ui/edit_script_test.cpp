@@ -390,6 +390,7 @@ TEST_CASE("a number of the scene that was chosen anew is taken back and chosen a
     return world.body(world.find_body("ball"))->mass;
   };
   const BodyId ball = rig.app->session().world().find_body("ball");
+  const double usual = mass();
   rig.app->ask(EditBody{ball, "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
   rig.play("wait 60");
   rig.app->ask(ChangeParameter{"h", 4});
@@ -406,8 +407,15 @@ TEST_CASE("a number of the scene that was chosen anew is taken back and chosen a
   CHECK(mass() == doctest::Approx(3));
   CHECK(rig.app->session().paused());
   CHECK(rig.wished.empty());
+  // That, too, one by one.
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(says(rig, "Taken back: Change mass of ball"));
+  CHECK(rig.height("ball") == 2);
+  CHECK(mass() == doctest::Approx(usual));
   rig.play("key Ctrl+Z\nwait 3");
   CHECK(says(rig, "nothing to take back"));
+  rig.play("key Ctrl+Shift+Z\nwait 3");
+  CHECK(mass() == doctest::Approx(3));
   rig.play("key Ctrl+Shift+Z\nwait 3");
   CHECK(says(rig, "Done again: Change h"));
   CHECK(rig.height("ball") == 4);
@@ -426,5 +434,53 @@ TEST_CASE("a number of the scene that was chosen anew is taken back and chosen a
   rig.play("wait 3\nkey Ctrl+Z\nwait 3");
   CHECK(rig.app->scene_name() == "second");
   CHECK(says(rig, "nothing to take back"));
+  check_no_faults(*device);
+}
+
+TEST_CASE("what was done before a number of the scene changed is taken back deed by deed") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  const std::string file = (rig.folder.path() / "mine.json").string();
+  const std::string text = R"({"tumble_scene": 1, "parameters": {"h": {"value": 2, "min": 1}},
+  "bodies": {"ball": {"shape": {"type": "sphere", "radius": 1}, "position": [0, "$h", 0]},
+             "box": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [3, 1, 0]},
+             "rod": {"shape": {"type": "box", "size": [1, 1, 1]}, "position": [-3, 1, 0]}},
+  "cameras": {"main": {"position": [0, 2, 9], "target": [0, 1, 0]}}})";
+  REQUIRE(write_file(file, std::string_view(text)).ok());
+  rig.app->open(file);
+  rig.play("key Space\nwait 3\nkey R\nwait 2");
+  const auto there = [&](const char* name) {
+    return !rig.app->session().world().find_body(name).is_null();
+  };
+  rig.play("click body:box\nwait 2\nkey Del\nwait 2\nclick body:rod\nwait 2\nkey Del\nwait 2");
+  REQUIRE_FALSE(there("box"));
+  REQUIRE_FALSE(there("rod"));
+  // No wait: what was done just now counts, too.
+  rig.app->ask(ChangeParameter{"h", 5});
+  rig.play("wait 3");
+  CHECK(rig.height("ball") == 5);
+  CHECK_FALSE(there("box"));
+  CHECK_FALSE(there("rod"));
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(rig.height("ball") == 2);
+  CHECK_FALSE(there("rod"));
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(says(rig, "Taken back: Delete rod"));
+  CHECK(there("rod"));
+  CHECK_FALSE(there("box"));
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(there("box"));
+  rig.play("key Ctrl+Z\nwait 3");
+  CHECK(says(rig, "nothing to take back"));
+  rig.play("key Ctrl+Shift+Z\nwait 3");
+  CHECK_FALSE(there("box"));
+  CHECK(there("rod"));
+  rig.play("key Ctrl+Shift+Z\nwait 3\nkey Ctrl+Shift+Z\nwait 3");
+  CHECK_FALSE(there("rod"));
+  CHECK(rig.height("ball") == 5);
+  // The file is as it was all the time.
+  const auto now = read_file(file);
+  REQUIRE(now.ok());
+  CHECK(*now == text);
   check_no_faults(*device);
 }

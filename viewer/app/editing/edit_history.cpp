@@ -58,6 +58,13 @@ std::vector<DeedEdits> EditHistory::file_edits() const {
   return out;
 }
 
+std::vector<std::pair<std::string, DeedEdits>> EditHistory::deeds() const {
+  std::vector<std::pair<std::string, DeedEdits>> out;
+  for (const Deed& deed : done_)
+    if (deed.edits) out.emplace_back(deed.what, deed.edits);
+  return out;
+}
+
 DeedEdits EditHistory::newest() const {
   return std::find_if(done_.rbegin(), done_.rend(),
                       [](const Deed& d) { return d.edits != nullptr; })

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -40,6 +41,10 @@ class EditHistory {
 
   /// Of the deeds that hold, in order.
   std::vector<DeedEdits> file_edits() const;
+  /// What the deeds to the world that hold are, and their edits, in order.
+  std::vector<std::pair<std::string, DeedEdits>> deeds() const;
+  /// Of deeds that are too old to be taken back.
+  const std::vector<DeedEdits>& forgotten() const { return forgotten_; }
   /// Of the newest deed to the world, which must be there.
   DeedEdits newest() const;
   /// At which ticks the deeds to the world that hold were done.

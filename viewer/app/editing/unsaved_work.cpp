@@ -18,6 +18,9 @@ namespace {
 /// What a held widget changes comes with every picture: looked at as often as this [s].
 constexpr double seconds_between_looks = 1;
 
+/// For an answer of the session: in a tick that takes longer it is left.
+constexpr std::chrono::milliseconds patience(500);
+
 /// So many new scenes of one folder are told apart.
 constexpr int most_unnamed = 1000;
 
@@ -113,7 +116,6 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
 }
 
 void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread) {
-  constexpr std::chrono::milliseconds patience(500);  // in a tick that takes longer it is left
   if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
   // What was asked for before the newest deed does not know it.
   if (stale_ || !collected_.valid()) collected_ = collect_edits(session, deeds);
@@ -122,16 +124,42 @@ void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, 
   if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
 }
 
-void UnsavedWork::take(std::vector<SceneEdit> edits) {
-  edits_ = std::move(edits);
+std::vector<std::string> UnsavedWork::texts_after(Session& session,
+                                                  const std::vector<DeedEdits>& too_old,
+                                                  const std::vector<DeedEdits>& deeds,
+                                                  bool own_thread) const {
+  if (file_.text.empty() || deeds.empty()) return {};
+  auto old = collect_edits(session, too_old);
+  std::vector<std::future<std::vector<SceneEdit>>> each;
+  for (const DeedEdits& deed : deeds) each.push_back(collect_edits(session, {deed}));
+  if (!own_thread) (void)session.advance(0);
+  if (each.back().wait_for(patience) != std::future_status::ready) return {};
+  std::vector<SceneEdit> edits = old.get();
+  std::vector<std::string> out;
+  std::string text = text_with(edits).value_or(file_.text);
+  for (auto& deed : each) {
+    for (SceneEdit& edit : deed.get()) edits.push_back(std::move(edit));
+    text = text_with(edits).value_or(text);
+    out.push_back(text);
+  }
+  return out;
+}
+
+std::optional<std::string> UnsavedWork::text_with(const std::vector<SceneEdit>& edits) const {
   // It is read again in place of the text that it was made of.
   const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
-  auto saved = save_edits(file_.text, in_place ? file_.path.string() : std::string(), edits_);
+  auto saved = save_edits(file_.text, in_place ? file_.path.string() : std::string(), edits);
+  return saved ? std::optional(std::move(saved->text)) : std::nullopt;
+}
+
+void UnsavedWork::take(std::vector<SceneEdit> edits) {
+  edits_ = std::move(edits);
+  const std::optional<std::string> saved = text_with(edits_);
   if (!saved) {  // what could be kept last stays kept
     any_ = any_ || !edits_.empty();
     return;
   }
-  const std::string now = std::move(saved->text);
+  const std::string& now = *saved;
   any_ = now != file_.on_disk;
   if (now == text_) return;
   text_ = now;

@@ -50,6 +50,10 @@ class UnsavedWork {
   /// Looks at the newest deeds at once, before another scene is shown. `own_thread`: of the
   /// session.
   void finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread);
+  /// The scene's text after each of these deeds, which come after those that are too old; nothing
+  /// where the session does not say it soon. What cannot be said in the file leaves it as it is.
+  std::vector<std::string> texts_after(Session& session, const std::vector<DeedEdits>& too_old,
+                                       const std::vector<DeedEdits>& deeds, bool own_thread) const;
   /// The scene was saved: this is its file from now on.
   void saved(const SceneFile& file);
   /// Nobody wants what was kept.
@@ -63,6 +67,7 @@ class UnsavedWork {
 
  private:
   void take(std::vector<SceneEdit> edits);
+  std::optional<std::string> text_with(const std::vector<SceneEdit>& edits) const;
   void choose_file();
   std::filesystem::path kept_file_of(const std::filesystem::path& scene) const;
 

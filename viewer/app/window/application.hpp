@@ -147,7 +147,9 @@ class Application {
   };
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
-  void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice);
+  void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice,
+               std::vector<ChoiceHistory::Step> deeds = {});
+  std::vector<ChoiceHistory::Step> deeds_as_choices();
   void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
   void look_at_view();
   UiModel model() const;
@@ -281,7 +283,8 @@ class Application {
   EditHistory edits_;
   WorldSettings settings_before_;  ///< the newest change of them
   ChoiceHistory choices_;
-  std::optional<ChoiceHistory::Step> choosing_;  ///< what the scene is being opened for
+  std::optional<ChoiceHistory::Step> choosing_;    ///< what the scene is being opened for
+  std::vector<ChoiceHistory::Step> deeds_before_;  ///< done to the scene before that
   Duplicator duplicator_;
   Builder builder_;
   ComparisonDesk second_;

@@ -35,8 +35,10 @@ void Application::open(SceneWish wish) {
   open_as(std::move(wish), std::nullopt);
 }
 
-void Application::open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice) {
+void Application::open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice,
+                          std::vector<ChoiceHistory::Step> deeds) {
   choosing_ = std::move(choice);
+  deeds_before_ = std::move(deeds);
   if (options_.own_thread)
     loader_.start(options_.open, std::move(wish));
   else
@@ -45,6 +47,7 @@ void Application::open_as(SceneWish wish, std::optional<ChoiceHistory::Step> cho
 
 void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
   auto choice = std::exchange(choosing_, std::nullopt);
+  const std::vector<ChoiceHistory::Step> deeds = std::exchange(deeds_before_, {});
   if (opened) {
     ui_.toasts.clear();
     // The same scene with other numbers or another text is looked at from where one stands, and
@@ -70,6 +73,7 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
         ui_.toast(ToastKind::info,
                   (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
                       choice->what);
+      for (const ChoiceHistory::Step& deed : deeds) choices_.gone(deed);
       choices_.gone(*std::move(choice));
     }
     if (reloaded)
@@ -190,6 +194,25 @@ void Application::change_parameter(const ChangeParameter& change) {
   choose({fmt::format("parameters.{}={}", change.name, change.value)}, "Change " + change.name);
 }
 
+/// The moments that deeds go back to are of this world. Where another comes in its place, the deeds
+/// become choices of the scene's text: taken back one by one each opens the scene without it.
+std::vector<ChoiceHistory::Step> Application::deeds_as_choices() {
+  const auto deeds = edits_.deeds();
+  std::vector<DeedEdits> edits;
+  for (const auto& deed : deeds) edits.push_back(deed.second);
+  const std::vector<std::string> texts =
+      unsaved_.texts_after(session(), edits_.forgotten(), edits, options_.own_thread);
+  std::vector<ChoiceHistory::Step> out;
+  SceneWish wish = scene_.wish;
+  for (size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i] == wish.text.value_or(scene_.file.text)) continue;  // nothing that a file can say
+    SceneWish before = wish;
+    wish.text = texts[i];
+    out.push_back({ChoiceHistory::Way::anew, deeds[i].first, std::move(before), wish});
+  }
+  return out;
+}
+
 /// The scene anew with other numbers, and with what was changed here.
 void Application::choose(const std::vector<std::string>& overrides, std::string what) {
   // What was done just now counts, too.
@@ -202,7 +225,8 @@ void Application::choose(const std::vector<std::string>& overrides, std::string 
     std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
     after.overrides.push_back(one);
   }
-  open_as(after, ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after});
+  open_as(after, ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after},
+          deeds_as_choices());
 }
 
 /// A choice taken back, or made again; false when there is none.
