@@ -45,11 +45,17 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   ImGui::EndChild();
   ImGui::PopClipRect();
   if (!panel.footer) return;
-  ImGui::SetCursorPos(ImVec2(padding.x, r.height - foot));
+  constexpr float gap = 6;
+  if (height > r.height) {  // what is cut off there goes on below
+    const float y = r.y + r.height - foot;
+    ImGui::GetWindowDrawList()->AddLine({r.x, y}, {r.x + r.width, y},
+                                        ImGui::GetColorU32(ImGuiCol_Separator));
+  }
+  ImGui::SetCursorPos(ImVec2(padding.x, r.height - foot + gap));
   ImGui::BeginGroup();
   panel.footer(context);
   ImGui::EndGroup();
-  *footer = ImGui::GetItemRectSize().y + padding.y;
+  *footer = gap + ImGui::GetItemRectSize().y + padding.y;
 }
 
 void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
