@@ -59,6 +59,8 @@ class PointerTool {
   /// Without a held button keys fly too, and what a left drag does is look around.
   bool free_flight() const { return free_flight_; }
   void set_free_flight(bool on) { free_flight_ = on; }
+  /// Somebody clicked elsewhere: the next click here is a first one.
+  void forget_click() { clicked_on_.reset(); }
   /// While clicks put something where they are, a double click does not move the camera.
   void set_placing(bool on) { placing_ = on; }
   bool arranging() const { return mode_ == Mode::arrange; }

@@ -195,3 +195,18 @@ TEST_CASE("a pendulum clock is built in the window: it swings at its period and 
   CHECK(std::abs(std::abs(angle) - turned) < 0.02 * turned);
   check_no_faults(*b.device);
 }
+
+TEST_CASE("who clicks twice on one place builds one body there, and stays where they look from") {
+  Laboratory b;
+  const Vec3 target = b.rig.app->camera().camera().target;
+  const std::string place = b.at({0, 0, 3.5});
+  const auto built = [&](const char* name) { return !b.world().find_body(name).is_null(); };
+  b.play("click build.sphere\nwait 2\ndouble_click " + place + "\nwait 3");
+  CHECK(built("sphere"));
+  CHECK_FALSE(built("sphere_2"));
+  CHECK(b.rig.app->camera().camera().target == target);
+  // After a click on the panel a click is a new one, however soon.
+  b.play("click build.sphere\nwait 2\nclick build.sphere\nclick " + place + "\nwait 3");
+  CHECK(built("sphere_2"));
+  check_no_faults(*b.device);
+}

@@ -31,7 +31,10 @@ void Application::route(std::span<const InputEvent> events, double dt) {
       for_scene.push_back(event);
     } else if (const auto* press = std::get_if<PointerPressed>(&event)) {
       // A gesture that began on the scene ends there, wherever the pointer is by now.
-      if (!press->down || !host_.wants_pointer()) for_scene.push_back(event);
+      if (!press->down || !host_.wants_pointer())
+        for_scene.push_back(event);
+      else
+        pointer_.forget_click();
     } else if (std::holds_alternative<WheelTurned>(event)) {
       if (!host_.wants_pointer()) for_scene.push_back(event);
     } else if (const auto* files = std::get_if<FilesDropped>(&event)) {
@@ -129,6 +132,8 @@ void Application::apply(const PointerEffects& effects) {
   if (works && pointer_.is_beside())
     return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
   if (ui_.building && effects.selected && !effects.drag_began) {
+    // Nobody wants two in one place. The second place of a joint may be that of the first.
+    if (effects.twice && !builder_.half_way()) return;
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }

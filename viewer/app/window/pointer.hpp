@@ -43,6 +43,7 @@ class Pointer {
   PointerLook look() const { return look_; }
   void cancel() { tool_.cancel(); }
   void set_free_flight(bool on) { tool_.set_free_flight(on); }
+  void forget_click() { tool_.forget_click(); }
   void set_placing(bool on) { tool_.set_placing(on); }
 
   /// Whether the panels must not see the pointer: it is busy with the scene, or about to be.
