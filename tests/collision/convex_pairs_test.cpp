@@ -251,7 +251,7 @@ TEST_CASE("a cylinder stands on its cap and lies on its side") {
 }
 
 TEST_CASE(
-    "a cone stands on its base, lies on its side, stands on its tip; a tapered capsule lies") {
+    "a cone stands on its base, lies on its side, stands on its tip, a tapered capsule lies") {
   const double lean = det::asin(1 / std::sqrt(10.0));  // of the side, for height 3 radius
   const auto floor = half_space(), slab = box({5, 1, 5}), spike = cone(0.2, 0.6);
   const auto bone = tapered_capsule(0.3, 0.1, 0.5);

@@ -82,7 +82,7 @@ Deepest convex_distance(const ConvexShape& a, const Pose& pa, const Shape& m, co
 
 }  // namespace
 
-TEST_CASE("two tori: apart, the least gap is the distance; pushed together, depth and direction") {
+TEST_CASE("two tori: apart, the least gap is the distance, pushed together, depth and direction") {
   Random r(31);
   const TriangleMesh coarse = make_mesh::torus(0.5, 0.2, 24, 12);
   const TriangleMesh link = make_mesh::torus(0.5, 0.12, 32, 14);
@@ -244,7 +244,7 @@ TEST_CASE("a box slides and a ball rolls over a tessellated floor without ghost 
 }
 
 TEST_CASE(
-    "smooth shapes near a mesh: the least gap is the distance; pushed in, depth and way out") {
+    "smooth shapes near a mesh: the least gap is the distance, pushed in, depth and way out") {
   Random r(35);
   const auto torus = mesh(make_mesh::torus(0.5, 0.2, 24, 12)),
              block = mesh(make_mesh::box({0.5, 0.4, 0.3}));

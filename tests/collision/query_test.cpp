@@ -66,7 +66,7 @@ TEST_CASE("rays hit shapes at poses as in their own frames") {
   }
 }
 
-TEST_CASE("a half-space's closest point is its foot; NaN gives nothing") {
+TEST_CASE("a half-space's closest point is its foot, NaN gives nothing") {
   const auto plane = half_space();
   const Pose tilted{{0, 1, 0}, axis_angle(Vec3::UnitZ(), 0.5)};
   const auto c = closest_point(*plane, tilted, tilted.point({3, 2, 1}));

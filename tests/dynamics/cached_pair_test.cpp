@@ -135,7 +135,7 @@ TEST_CASE("carried contacts have the gaps of the narrow phase, to second order w
   CHECK(apart > 0);
 }
 
-TEST_CASE("a motion that comes back is no motion; a way travelled in small steps is") {
+TEST_CASE("a motion that comes back is no motion, a way travelled in small steps is") {
   Random r(6);
   auto bodies = near_boxes(r, true);
   bodies[1].pose.q = bodies[0].pose.q;

@@ -85,7 +85,7 @@ TEST_CASE("a force law is solved exactly, and its parts are within their bounds"
   CHECK(held < 5000);
 }
 
-TEST_CASE("steps at one velocity share the force in their order; nothing moves what is locked") {
+TEST_CASE("steps at one velocity share the force in their order, nothing moves what is locked") {
   ForceLaw law;
   law.add_step(0, -1, 1);
   law.add_step(0, 0, infinite);

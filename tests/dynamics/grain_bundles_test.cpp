@@ -71,7 +71,7 @@ struct Cloud {
 
 }  // namespace
 
-TEST_CASE("every pair has one lane; no two of a colour share a grain, no two blocks share any") {
+TEST_CASE("every pair has one lane, no two of a colour share a grain, no two blocks share any") {
   Cloud cloud(14, 0.1, 0, 1);
   // One large grain that more than 64 others touch.
   ParticleDef large;

@@ -149,7 +149,7 @@ TEST_CASE("without any restitution reflections are one plain inelastic collision
   }
 }
 
-TEST_CASE("two balls in, two out; both ends at once change places") {
+TEST_CASE("two balls in, two out, both ends at once change places") {
   for (const char* name : {"reflections", "sequential"}) {
     std::vector<DofBlock> balls(5, ball(1, Vec3::Zero()));
     balls[0].v = balls[1].v = {1, 0, 0};
@@ -324,7 +324,7 @@ TEST_CASE("restitution of velocities cannot create energy (Kane & Levinson's pen
   CHECK(scaled > 0);
 }
 
-TEST_CASE("a moving wall and a belt do their work; hostile input is refused") {
+TEST_CASE("a moving wall and a belt do their work, hostile input is refused") {
   // A kinematic wall at 1 m/s hits a ball at rest: the ball leaves at 2 m/s.
   std::vector<DofBlock> blocks{DofBlock{}, ball(1, Vec3::Zero())};
   blocks[0].v = {1, 0, 0};

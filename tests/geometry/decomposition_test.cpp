@@ -227,7 +227,7 @@ void check_partition(const ConvexDecomposition& d, const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("exact pieces are convex, disjoint and add up; their number is near the least") {
+TEST_CASE("exact pieces are convex, disjoint and add up, their number is near the least") {
   for (const Solid& s : solids()) {
     CAPTURE(s.name);
     const auto d = decompose_exactly(s.mesh);

@@ -118,7 +118,7 @@ TEST_CASE("nodes of a field are exact, in the band and at the corners of blocks,
   }
 }
 
-TEST_CASE("every point of the band has a fine answer; every answer keeps its stated bound") {
+TEST_CASE("every point of the band has a fine answer, every answer keeps its stated bound") {
   Random random(4);
   for (const auto& [name, mesh] : solids()) {
     CAPTURE(name);
@@ -225,7 +225,7 @@ TEST_CASE("the error between nodes falls with the square of the cells where the 
   CHECK(measure_field_error(*field, tree, 1000).largest <= 0.01);
 }
 
-TEST_CASE("parts that overlap are reported and count as their union; clean solids report none") {
+TEST_CASE("parts that overlap are reported and count as their union, clean solids report none") {
   for (const auto& [name, mesh] : solids()) {
     CAPTURE(name);
     const AabbTree tree(mesh);
@@ -261,7 +261,7 @@ TEST_CASE("any number of threads builds the same field, and 16 bits take half of
 }
 
 TEST_CASE(
-    "open meshes, bad options and fields too large are refused with a cure; a stop is heard") {
+    "open meshes, bad options and fields too large are refused with a cure, a stop is heard") {
   const AabbTree open(
       hard_meshes::share(make_mesh::terrain(1, 4, [](double, double) { return 0; })));
   const auto refused = make_distance_field(open);

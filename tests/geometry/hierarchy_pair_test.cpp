@@ -99,7 +99,7 @@ TEST_CASE("pairs, first hit and distance of two meshes equal brute force for eve
 }
 
 TEST_CASE(
-    "what is reported as meeting is exactly what the primitive test says; the rest is apart") {
+    "what is reported as meeting is exactly what the primitive test says, the rest is apart") {
   Random r(81);
   int meeting = 0, degenerate = 0;
   const int n = draws::count(200000);

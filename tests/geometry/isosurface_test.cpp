@@ -178,7 +178,7 @@ TEST_CASE("an affine field gives its plane exactly") {
   CHECK(area > 1);
 }
 
-TEST_CASE("a lone ball is wrapped as the sphere that it is; two that touch in one skin") {
+TEST_CASE("a lone ball is wrapped as the sphere that it is, two that touch in one skin") {
   const std::vector<Vec3> centres = {{0.3, 7, -2}, {0.5, 7, -2}};
   const std::vector<double> radii = {0.1, 0.1};
   const auto one = smoothed_balls(std::span(centres).first(1), std::span(radii).first(1), 0.02);

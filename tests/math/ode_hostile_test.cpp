@@ -121,7 +121,7 @@ TEST_CASE("values that overflow within a step are refused") {
 }
 
 TEST_CASE(
-    "tolerances that are no numbers, negative or zero allow no step; a remembered step may be") {
+    "tolerances that are no numbers, negative or zero allow no step, a remembered step may be") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {nan, -1.0, 0.0}) {
     CAPTURE(bad);

@@ -125,7 +125,7 @@ TEST_CASE("a particle system takes along what cannot be without it") {
   CHECK(text.find("\"copies\"") != std::string::npos);
 }
 
-TEST_CASE("an emitter that another calls goes without it; a joint that another follows, too") {
+TEST_CASE("an emitter that another calls goes without it, a joint that another follows, too") {
   std::vector<std::string> along;
   const std::string text = without(RemovedPart{"sparks", EmitterDescription{}}, along);
   CHECK(along == std::vector<std::string>{"events of emitter jet"});

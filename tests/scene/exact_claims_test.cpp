@@ -59,7 +59,7 @@ struct Jacobi {
 
 }  // namespace
 
-TEST_CASE("slope_cone: nothing creeps below the cone; above it blocks slide as Coulomb says") {
+TEST_CASE("slope_cone: nothing creeps below the cone, above it blocks slide as Coulomb says") {
   BuiltScene s = shipped("slope_cone");
   const std::pair<const char*, double> pairs[] = {{"a", 0.3}, {"b", 0.5}, {"c", 0.7}};
   std::vector<Vec3> held, slid;

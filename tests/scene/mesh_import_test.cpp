@@ -329,7 +329,7 @@ TEST_CASE("T-junctions and seams of a file: closed with the volume of the solid"
   CHECK(refused.error().message.find("weld is 0.5 m") != std::string::npos);
 }
 
-TEST_CASE("PLY as text and binary in either byte order, with all digits; OFF likewise") {
+TEST_CASE("PLY as text and binary in either byte order, with all digits, OFF likewise") {
   const Folder folder;
   const auto text = import_mesh(folder.write("box.ply", ply_box("0.12345678901234567")));
   REQUIRE(text.ok());
@@ -407,7 +407,7 @@ TEST_CASE("node transforms are applied, mirrored parts stay outward, parts are n
   CHECK(mass->centre.x() == doctest::Approx((5 - 8 * 5) / 9.0).epsilon(1e-6));
 }
 
-TEST_CASE("faces of a material each close; solids that touch stay apart; bad faces are left out") {
+TEST_CASE("faces of a material each close, solids that touch stay apart, bad faces are left out") {
   const Folder folder;
   std::string faces, cubes;
   const TriangleMesh box = make_mesh::box(Vec3::Ones());

@@ -67,7 +67,7 @@ TEST_CASE("grid: numbering, centring, stagger") {
   CHECK(near(c.poses()[0].x, {10, 20, 30}));
 }
 
-TEST_CASE("stack: steps and turns; the body's own orientation comes first") {
+TEST_CASE("stack: steps and turns, the body's own orientation comes first") {
   Copies c;
   c.body.placement.euler_deg = Vec3(0, 0, 90);
   auto& stack = c.add<StackRepetition>();

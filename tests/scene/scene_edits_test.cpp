@@ -65,7 +65,7 @@ constexpr const char* small = R"({
 
 }  // namespace
 
-TEST_CASE("saving without a change gives the same bytes; one value is one line") {
+TEST_CASE("saving without a change gives the same bytes, one value is one line") {
   for (const std::string name : {"tower", "hello", "table", "dominoes", "crane", "joints"}) {
     CAPTURE(name);
     const std::string file = shipped_file(name), text = file_text(file);

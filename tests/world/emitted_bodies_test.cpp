@@ -95,7 +95,7 @@ TEST_CASE("emitted bodies: the same bits for any number of threads, after a snap
   }
 }
 
-TEST_CASE("a sink takes bodies, and their emitter makes more; the books have both") {
+TEST_CASE("a sink takes bodies, and their emitter makes more, the books have both") {
   TestWorld w;
   EmitterDef def = feeder(4);  // they have fallen out of each other's way
   def.at_most = 3;

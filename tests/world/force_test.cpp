@@ -212,7 +212,7 @@ TEST_CASE("mouse spring pulls a particle") {
   CHECK(w->particles(*id)->x[0].y() < -40);
 }
 
-TEST_CASE("particles: free fall with drag meets the closed form; momentum and ids stay in order") {
+TEST_CASE("particles: free fall with drag meets the closed form, momentum and ids stay in order") {
   TestWorld w(settings(480));
   ParticleSystemDef def;
   def.name = "rain";

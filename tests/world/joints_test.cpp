@@ -113,7 +113,7 @@ TEST_CASE("joints go with their bodies, and their ids are then stale") {
   CHECK(w.world->body(w.second)->v.y() < -0.5);
 }
 
-TEST_CASE("joints can be changed and destroyed; what hung on them wakes and falls") {
+TEST_CASE("joints can be changed and destroyed, what hung on them wakes and falls") {
   HungBalls w(false);
   w.run(120);
   REQUIRE(w.world->body(w.second)->asleep);

@@ -124,7 +124,7 @@ TEST_CASE("sliding to rest: friction takes the energy of motion, and gives its i
   check_closed(w);
 }
 
-TEST_CASE("a belt does work on what it carries along; friction takes as much") {
+TEST_CASE("a belt does work on what it carries along, friction takes as much") {
   TestWorld w(ledger_settings(240));
   BodyDef belt = TestWorld::box_def({0, -1, 0}, {50, 1, 5});
   belt.type = BodyType::fixed;

@@ -101,7 +101,7 @@ TEST_CASE("a mesh that is swept over a still particle meets it") {
   CHECK(found[0].time == doctest::Approx((phi - std::asin(radius / rho)) / 60).epsilon(1e-4));
 }
 
-TEST_CASE("no system detects: no contacts, no stage; commands clear them") {
+TEST_CASE("no system detects: no contacts, no stage, commands clear them") {
   TestWorld w;
   const BodyId ground = w.ground();
   const auto quiet = dust(w, {{.x = {0, 0, 0}, .radius = 1}}, false);

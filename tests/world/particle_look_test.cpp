@@ -76,7 +76,7 @@ TEST_CASE("what has been seen comes back with a snapshot, whoever asked for fram
   CHECK(double(w->frame()->particles.front()->value[1]) < 2);
 }
 
-TEST_CASE("density and pressure are of fluids; a range must rise; only spheres are coloured") {
+TEST_CASE("density and pressure are of fluids, a range must rise, only spheres are coloured") {
   TestWorld w;
   ParticleSystemDef def = three_balls();
   def.look.colour_by = ParticleQuantity::pressure;

@@ -77,7 +77,7 @@ TEST_CASE("what is equally far is ordered by id, whichever way the tree is searc
   CHECK(answer(scene->nearest({-5, 0.5, 0}, 3))[2].target.body == ids[2]);
 }
 
-TEST_CASE("a closed mesh holds what is wholly within; an open one is a surface from either side") {
+TEST_CASE("a closed mesh holds what is wholly within, an open one is a surface from either side") {
   TestWorld w;
   const auto shell = std::make_shared<const TriangleMesh>(make_mesh::box({2, 2, 2}));
   const BodyId mesh_id = w.add(TestWorld::shape_def(

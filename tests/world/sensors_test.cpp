@@ -145,7 +145,7 @@ TEST_CASE("neighbouring rectangles count each body once between them") {
   CHECK(sum == 16);  // the last one is at the far edge of the last
 }
 
-TEST_CASE("a gate counts what its lists name; jumps are no paths") {
+TEST_CASE("a gate counts what its lists name, jumps are no paths") {
   TestWorld w(weightless());
   const BodyId a = flying(w, {0, -1, 0}, {0, 5, 0}), b = flying(w, {0.5, -1, 0}, {0, 5, 0});
   const BodyId jumper = flying(w, {1, -1, 0}, {0, 0, 0});

@@ -259,7 +259,7 @@ TEST_CASE("the books of a falling, swinging cloth close") {
   CHECK(sum == doctest::Approx(frame->stats.energies.total()).epsilon(1e-9));
 }
 
-TEST_CASE("a saved cloth goes on as it would have; what loses particles holds together elsewhere") {
+TEST_CASE("a saved cloth goes on as it would have, what loses particles holds together elsewhere") {
   TestWorld w(settings());
   w.ground();
   Weave weave = crumpled(loose_cloth(8), 0.005, 0.2);

@@ -75,7 +75,7 @@ TEST_CASE("a spring made, stiffened and cut is noticed") {
   CHECK(r.w.body(r.box).v.y() - rising == doctest::Approx(-9.81 * 0.2).epsilon(0.01));
 }
 
-TEST_CASE("wind that rises moves what slept; drag of still air does not") {
+TEST_CASE("wind that rises moves what slept, drag of still air does not") {
   Resting r;
   QuadraticDragDef air;
   const ForceId id = r.w.force(air);

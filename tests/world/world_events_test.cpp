@@ -40,7 +40,7 @@ BodyDef named_ball(const char* name, const Vec3& x, double restitution) {
 
 }  // namespace
 
-TEST_CASE("bounces of a ball are impacts, of m (v + v'); a box that rests makes none") {
+TEST_CASE("bounces of a ball are impacts, of m (v + v'), a box that rests makes none") {
   for (const char* stepper : {"realtime", "event"}) {
     CAPTURE(stepper);
     WorldSettings settings;
@@ -68,7 +68,7 @@ TEST_CASE("bounces of a ball are impacts, of m (v + v'); a box that rests makes 
   }
 }
 
-TEST_CASE("sleep, waking, births and deaths are told; of many at once together") {
+TEST_CASE("sleep, waking, births and deaths are told, of many at once together") {
   TestWorld w;
   w.ground();
   std::vector<BodyId> row;

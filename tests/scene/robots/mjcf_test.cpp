@@ -200,7 +200,7 @@ TEST_CASE("mjcf: a linear equality of joints becomes a coupling") {
   CHECK(warns(curved.log, "m.xml:", "only a linear relation"));
 }
 
-TEST_CASE("mjcf: what is not followed is said; faults have a line and a cause") {
+TEST_CASE("mjcf: what is not followed is said, faults have a line and a cause") {
   const ReadRobot r = mjcf(
       "<worldbody>\n<body><site/>\n<geom size=\"1\" solref=\"1 1\"/><composite type=\"rope\"/>\n"
       "</body></worldbody>\n<tendon><spatial/></tendon>\n<keyframe/>");
@@ -234,7 +234,7 @@ TEST_CASE("mjcf: what is not followed is said; faults have a line and a cause") 
   says("<include file=\"gone.xml\"/>", "<include>");
 }
 
-TEST_CASE("mjcf: include puts another file in its place; a circle of them is a fault") {
+TEST_CASE("mjcf: include puts another file in its place, a circle of them is a fault") {
   const ScratchFolder folder("mjcf_include");
   folder.write("body.xml", "<mujocoinclude><body><geom size=\"1\"/></body></mujocoinclude>");
   RobotLog log;

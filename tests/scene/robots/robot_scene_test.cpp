@@ -140,7 +140,7 @@ TEST_CASE("a finger follows its neighbour: mimic holds under both steppers, with
   }
 }
 
-TEST_CASE("a robot swings when nothing holds it; a base without mass cannot float") {
+TEST_CASE("a robot swings when nothing holds it, a base without mass cannot float") {
   const ScratchFolder folder("robot_swing");
   const auto file = folder.write("bar.urdf", bar_urdf);
   BuiltScene s = build_of(
@@ -164,7 +164,7 @@ TEST_CASE("a robot swings when nothing holds it; a base without mass cannot floa
   CHECK(loose.scene.bodies.find("post")->type == BodyType::fixed);
 }
 
-TEST_CASE("links that overlap at the start, and neighbours, do not collide; or none at all") {
+TEST_CASE("links that overlap at the start, and neighbours, do not collide, or none at all") {
   const std::string ball =
       R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>
     <collision><geometry><sphere radius="0.3"/></geometry></collision></link>)";

@@ -63,7 +63,7 @@ TEST_CASE("urdf: mass, centre and tensor of a link are in its own frame") {
   CHECK((*body.centre - Vec3(0.1, 0.2, 0.3)).norm() < 1e-15);
 }
 
-TEST_CASE("urdf: rpy turns about fixed axes, x first; z of the file points up") {
+TEST_CASE("urdf: rpy turns about fixed axes, x first, z of the file points up") {
   ReadRobot r = urdf(rod("a") + rod("b") +
                      joint("j", "revolute", "a", "b",
                            R"(<origin xyz="1 2 3" rpy="1.5707963267948966 0 1.5707963267948966"/>
@@ -297,7 +297,7 @@ TEST_CASE("urdf: faults have a line, a cause and a cure") {
   CHECK(robot_of_text("", "r.urdf").log.faults()[0].text().find("no element") != std::string::npos);
 }
 
-TEST_CASE("urdf: a packed file is read as the plain one; a cut one is a fault") {
+TEST_CASE("urdf: a packed file is read as the plain one, a cut one is a fault") {
   const ScratchFolder folder("urdf_gz");
   const std::string text = "<robot name=\"r\">" + rod("a") + "</robot>";
   const auto plain = folder.write("r.urdf", text);

@@ -161,7 +161,7 @@ TEST_CASE("a frame between two ticks is interpolated particle by particle") {
   CHECK(known < to.size());
 }
 
-TEST_CASE("existing files are 5 and stay; --force writes them anew without leftovers") {
+TEST_CASE("existing files are 5 and stay, --force writes them anew without leftovers") {
   const Export exported;
   REQUIRE(exported("a", {"--seconds", "1"}).code == 0);
   const auto first = exported.contents("a");

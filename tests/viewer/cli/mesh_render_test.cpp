@@ -83,7 +83,7 @@ TEST_CASE("the picture does not depend on the size of the mesh, and shows holes 
   }
 }
 
-TEST_CASE("with a picture stdout still has the facts; no renderer is 4, no file 5") {
+TEST_CASE("with a picture stdout still has the facts, no renderer is 4, no file 5") {
   TempFolder folder;
   const std::string part = (mesh_assets / "l_part.obj").string();
   const std::string out = (folder / "out.png").string();

@@ -85,7 +85,7 @@ TEST_CASE("the CSV has a row a tick, and its energy is that of free fall") {
   CHECK(values[6] == doctest::Approx(2 * 9.81 * 100).epsilon(2e-3));
 }
 
-TEST_CASE("every cause has its columns, and named forces theirs; the work of gravity is m g h") {
+TEST_CASE("every cause has its columns, and named forces theirs, the work of gravity is m g h") {
   TempFolder folder;
   const std::string scene = write_text(folder / "fall.json", R"({"tumble_scene": 1, "bodies": {
     "ball": {"position": [0, 100, 0], "mass": 2, "shape": {"type": "sphere", "radius": 0.5}}},
@@ -132,7 +132,7 @@ TEST_CASE("coordinates, motors and reactions of joints can be asserted, and whet
   CHECK(mentions(read_all(folder / "j.csv"), "value_1,rate_1,motor_1"));
 }
 
-TEST_CASE("the ledger can be asserted; an unknown name says what was meant and ends with 2") {
+TEST_CASE("the ledger can be asserted, an unknown name says what was meant and ends with 2") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());
   CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--assert", "energy.drift<0.05",
@@ -360,7 +360,7 @@ TEST_CASE("sensors are known to --assert and --csv") {
   CHECK(mentions(run.err, "did you mean 'sensors.low.count'"));
 }
 
-TEST_CASE("assertions of a scene: at a moment, always, at the end; one that fails ends with 1") {
+TEST_CASE("assertions of a scene: at a moment, always, at the end, one that fails ends with 1") {
   const TempFolder folder;
   const auto run = [&](const std::string& assertions, const char* seconds) {
     const std::string scene = write_text(folder / "a.json", sensed_scene(assertions));

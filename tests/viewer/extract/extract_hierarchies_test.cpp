@@ -61,7 +61,7 @@ TEST_CASE("hierarchies: twelve lines a box and three circles a sphere, of the le
   CHECK_FALSE(hierarchy_depth(boxes.make(), options, meshes));
 }
 
-TEST_CASE("notes of a scene: a label above the body, volumes around it; the overlay goes first") {
+TEST_CASE("notes of a scene: a label above the body, volumes around it, the overlay goes first") {
   const auto solid = shape(ShapeType::triangle_mesh, tetrahedron());
   FrameMaker m;
   m.add(solid, {0, 2, 0});

@@ -98,7 +98,7 @@ TEST_CASE("coarser versions are cheaper and come at smaller sizes") {
     }
 }
 
-TEST_CASE("meshes: equal content has equal id; malformed ones are refused") {
+TEST_CASE("meshes: equal content has equal id, malformed ones are refused") {
   const std::vector<Vec3f> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Vec3f> n(3, Vec3f::UnitZ());
   const MeshRef a = make_mesh(p, n, {0, 1, 2}), b = make_mesh(p, n, {0, 1, 2});

@@ -72,7 +72,7 @@ TEST_CASE("layers: opaque by mesh, ghosts far to near, selected outlined, caster
   CHECK(z == std::vector<float>{-3, 0.5f, 3});
 }
 
-TEST_CASE("balls are cards; those behind others are left out and still cast shadows") {
+TEST_CASE("balls are cards, those behind others are left out and still cast shadows") {
   RenderScene scene;
   constexpr int side = 8;
   for (int i = 0; i < side * side * side; ++i)

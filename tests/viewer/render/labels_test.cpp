@@ -76,7 +76,7 @@ TEST_CASE("a label makes way for those before it, and a label at a pixel for non
   CHECK_FALSE(boxes[0]->overlaps(*boxes[2]));
 }
 
-TEST_CASE("labels never overlap; where there is no room they are left out") {
+TEST_CASE("labels never overlap, where there is no room they are left out") {
   Random random(7);
   for (const double spread : {0.1, 1.0, 3.0}) {
     std::vector<TextLabel> labels;

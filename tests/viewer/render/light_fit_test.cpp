@@ -64,7 +64,7 @@ TEST_CASE("small movements keep the grid of texels in place") {
   }
 }
 
-TEST_CASE("no casters, no map; a distant rest does not spoil the near part") {
+TEST_CASE("no casters, no map, a distant rest does not spoil the near part") {
   CHECK(fit_light({}, Vec3::UnitY(), wide_view(Vec3(0, 5, 20)), 512).empty);
   Camera c;
   c.eye = Vec3(0, 3, 8);

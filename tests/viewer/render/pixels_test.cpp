@@ -242,7 +242,7 @@ TEST_CASE("two contexts in one process draw beside each other") {
   REQUIRE(a.choice.context->make_current().ok());
 }
 
-TEST_CASE("top row first: sky above, ground below; a red ball is where it projects to") {
+TEST_CASE("top row first: sky above, ground below, a red ball is where it projects to") {
   Studio studio("auto");
   RenderScene scene;
   Paint red;

@@ -131,7 +131,7 @@ TEST_CASE("a heap of particles is drawn by its skin, and every run holds what it
     CHECK(plan.sphere_vertices[3 * (low.first + i)].centre[1] < 1);
 }
 
-TEST_CASE("ghost particles are drawn far to near and hide nothing; nonsense is left out") {
+TEST_CASE("ghost particles are drawn far to near and hide nothing, nonsense is left out") {
   RenderScene scene;
   scene.camera.eye = Vec3(0, 1, 12);
   scene.camera.target = Vec3(0, 1, 0);

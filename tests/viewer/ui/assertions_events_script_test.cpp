@@ -65,7 +65,7 @@ TEST_CASE("assertions wait, hold and fail in the panel as the world goes on, and
   check_no_faults(*device);
 }
 
-TEST_CASE("Ctrl+. goes to the impact of a falling ball; the list shows it and leads back to it") {
+TEST_CASE("Ctrl+. goes to the impact of a falling ball, the list shows it and leads back to it") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1200, 900, 1};

@@ -104,7 +104,7 @@ TEST_CASE("looking around keeps the eye, flying forward goes where one looks") {
   CHECK(moved.normalized().dot(view) == doctest::Approx(1));
 }
 
-TEST_CASE("focus on a point puts it in the middle and keeps the eye; on bounds shows them all") {
+TEST_CASE("focus on a point puts it in the middle and keeps the eye, on bounds shows them all") {
   CameraController controller;
   controller.set(start_camera());
   const Vec3 eye = controller.camera().eye, point(4, 0.5, 1);

@@ -163,7 +163,7 @@ TEST_CASE("bodies of a repetition are pasted into another scene by plain names, 
   check_no_faults(*b.device);
 }
 
-TEST_CASE("placed meshes are taken back one by one; a file that is no mesh says so") {
+TEST_CASE("placed meshes are taken back one by one, a file that is no mesh says so") {
   Laboratory b;
   const auto bad = b.rig.folder.path() / "bad.obj";
   REQUIRE(write_file(bad, std::string_view("v 0 0 0\n")).ok());

@@ -164,7 +164,7 @@ TEST_CASE("a click on a drawn contact shows what it claims, under both steppers"
 }
 
 TEST_CASE(
-    "overlays of a scene come and go with it, those that a person chose stay; trails follow") {
+    "overlays of a scene come and go with it, those that a person chose stay, trails follow") {
   const auto device = make_null_device();
   Rig rig(*device);
   const auto& on = rig.app->ui_state().overlays;

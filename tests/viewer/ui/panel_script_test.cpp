@@ -19,7 +19,7 @@ WorldSettings settings_of(Rig& rig) {
 
 }  // namespace
 
-TEST_CASE("scenes open by search and by brackets; a faulty file is shown and the old one stays") {
+TEST_CASE("scenes open by search and by brackets, a faulty file is shown and the old one stays") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.play("key Ctrl+O\nwait 3\ntext sec\nwait 2\nkey Enter\nwait 2");
