@@ -164,6 +164,10 @@ int main(int count, char** words) {
         options.names.empty() ||
         std::find(options.names.begin(), options.names.end(), entry.name) != options.names.end();
     if (!wanted) continue;
+    if (!make_workload(entry, true).particles.empty()) {
+      fmt::print("{}: grains, which none of these peers has: see tumble bench\n", entry.name);
+      continue;
+    }
     if (!options.small_only)
       ratios += fmt::format("  {:<5}{:>8.3f}\n", entry.name,
                             run_one(make_workload(entry, false), options));

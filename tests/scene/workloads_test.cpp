@@ -131,6 +131,48 @@ TEST_CASE("the rain of W4 is where the generator puts it") {
   CHECK(wrong == 0);
 }
 
+TEST_CASE("the sand of W9 is where the generator puts it") {
+  const Workload w = make_workload(all_workloads().back());
+  REQUIRE(w.particles.size() == 1);
+  const auto& sand = w.particles[0].particles;
+  REQUIRE(sand.size() == 100000);
+  CHECK(w.particles[0].friction == 0.5);
+  CHECK(w.particles[0].restitution == 0);
+  CHECK(w.particles[0].grains.has_value());
+  uint64_t s = 4242;
+  const auto draw = [&s](double a, double b) {
+    s = s * 6364136223846793005u + 1442695040888963407u;
+    return a + (b - a) * (double(s >> 33) * std::ldexp(1.0, -31));
+  };
+  size_t wrong = 0;
+  for (size_t i = 0; i < sand.size(); ++i) {
+    const auto row = double(i % 100), column = double(i / 100 % 100), layer = double(i / 10000);
+    const double dx = draw(-2e-4, 2e-4), dy = draw(-2e-4, 2e-4), dz = draw(-2e-4, 2e-4);
+    const Vec3 want((row - 49.5) * 0.0104 + dx, 0.0055 + 0.0104 * layer + dy,
+                    (column - 49.5) * 0.0104 + dz);
+    const double r = draw(4.6e-3, 5e-3), mass = 2600 * 4.18879020478639 * r * r * r;
+    if (!(sand[i].x - want).isZero(1e-14) || std::abs(sand[i].radius - r) > 1e-16 ||
+        std::abs(sand[i].mass - mass) > 1e-13 * mass)
+      ++wrong;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("particles of a workload are measured as balls of their mass") {
+  const Workload w = make_workload(all_workloads().back(), true);
+  const auto built = build_workload(w, {});
+  REQUIRE(built.ok());
+  const std::vector<RigidBody> at = built->states();
+  REQUIRE(at.size() == 2005);
+  double mass = 0;
+  for (size_t i = 5; i < at.size(); ++i) mass += at[i].mass;
+  double want = 0;
+  for (const ParticleDef& p : w.particles[0].particles) want += p.mass;
+  CHECK(mass == doctest::Approx(want).epsilon(1e-12));
+  // Places 10.4 mm apart, each 0.2 mm off at most along an axis: no two balls of 5 mm meet.
+  CHECK(measure_overlaps(w, at).pairs == 0);
+}
+
 TEST_CASE("nothing of a workload sleeps, and its surfaces are those of the definition") {
   for (const WorkloadEntry& entry : all_workloads()) {
     const Workload w = make_workload(entry, true);

@@ -13,5 +13,6 @@ Workload ragdolls_workload(bool small);
 Workload mesh_tori_workload(bool small);
 Workload compound_tori_workload(bool small);
 Workload washer_workload(bool small);
+Workload grains_workload(bool small);
 
 }  // namespace tumble

@@ -14,6 +14,7 @@ const std::vector<WorkloadEntry>& all_workloads() {
       {"W7m", "200 tori on wavy ground, mesh against mesh", mesh_tori_workload},
       {"W7c", "the same tori, of twelve convex pieces each", compound_tori_workload},
       {"W8", "1000 cubes in a turning drum", washer_workload},
+      {"W9", "100,000 grains of sand collapse into a bed", grains_workload},
   };
   return entries;
 }

@@ -1,6 +1,8 @@
 #include "engine/scene/workloads/run.hpp"
 
 #include "engine/core/elapsed.hpp"
+#include "engine/math/det/det.hpp"
+#include "engine/scene/workloads/parts.hpp"
 #include "engine/scene/workloads/peak_memory.hpp"
 
 #include <algorithm>
@@ -62,6 +64,17 @@ Status run_steps(World& world, int steps, const WorkloadOptions& options, Tally&
   return {};
 }
 
+/// A particle as what measures of overlap and energy take: a solid ball of its mass.
+RigidBody ball_of(const ParticleSystem& p, size_t i) {
+  const double r = p.radius[i];
+  BodyDef def = sphere_body(p.x[i], r);
+  def.shapes[0].material.density = p.mass[i] / (4.0 / 3.0 * det::pi * r * r * r);
+  RigidBody ball = make_body(def).value();
+  ball.v = p.v[i];
+  if (p.grains) ball.omega = p.spin[i];
+  return ball;
+}
+
 }  // namespace
 
 StepTimes step_times(std::vector<double> t) {
@@ -78,6 +91,10 @@ StepTimes step_times(std::vector<double> t) {
 std::vector<RigidBody> WorkloadWorld::states() const {
   std::vector<RigidBody> out;
   for (const BodyId id : bodies) out.push_back(*world->body(id));
+  for (const ParticleSystemId id : particles) {
+    const ParticleSystem& p = *world->particles(id);
+    for (size_t i = 0; i < p.size(); ++i) out.push_back(ball_of(p, i));
+  }
   return out;
 }
 
@@ -99,6 +116,11 @@ Result<WorkloadWorld> build_workload(const Workload& w, const WorldDef& def) {
     joint.frame_a = w.bodies[j.a].pose.inverse() * j.frame;
     joint.frame_b = w.bodies[j.b].pose.inverse() * j.frame;
     if (const auto id = out.world->create_joint(joint); !id) return id.error();
+  }
+  for (const ParticleSystemDef& system : w.particles) {
+    const auto id = out.world->create_particles(system);
+    if (!id) return id.error();
+    out.particles.push_back(*id);
   }
   if (Status s = out.world->apply_commands(); !s) return s.error();
   return out;
@@ -124,6 +146,7 @@ Result<WorkloadRun> run_workload(const Workload& w, const WorkloadOptions& optio
   run.peak_memory = peak_memory();
   for (const BodyDef& b : w.bodies) run.bodies += b.type == BodyType::dynamic ? 1 : 0;
   run.joints = w.joints.size();
+  for (const ParticleSystemDef& system : w.particles) run.particles += system.particles.size();
   run.memory = built->world->memory_use();
   run.last_contacts = built->world->frame()->stats.contacts;
   run.end = measure_end_state(w, built->states());

@@ -38,6 +38,7 @@ struct WorkloadRun {
   StepTimes cpu;                  ///< of all threads together
   std::vector<StageMean> stages;  ///< wall time, in the order of the first step that had them
   size_t bodies = 0;              ///< dynamic
+  size_t particles = 0;
   size_t joints = 0;
   double pairs = 0, contacts = 0, contact_points = 0;  ///< a step, on average
   double peak_memory = 0;  ///< of the process, since the bodies were made [MB]; 0: unknown here
@@ -52,11 +53,12 @@ struct WorkloadRun {
   uint64_t state_hash = 0;
 };
 
-/// A world with the bodies and joints of a workload; their ids are in its order.
+/// A world with the bodies, joints and particles of a workload; their ids are in its order.
 struct WorkloadWorld {
   std::unique_ptr<World> world;
   std::vector<BodyId> bodies;
-  std::vector<RigidBody> states() const;  ///< of the bodies, now
+  std::vector<ParticleSystemId> particles;
+  std::vector<RigidBody> states() const;  ///< of the bodies now, then of the particles as balls
 };
 Result<WorkloadWorld> build_workload(const Workload& w, const WorldDef& def);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/joints/joint_kinds.hpp"
+#include "engine/dynamics/particles/particle_system.hpp"
 
 #include <memory>
 #include <optional>
@@ -30,13 +31,14 @@ struct ToriOnTerrain {
 
 /// A fixed piece of work by which versions of the engine, and other engines, are compared: how
 /// many steps of 1/60 s of which bodies and joints, under gravity of 9.81 m/s2, with friction 0.5
-/// and restitution 0 everywhere; nothing sleeps. Every number of it is part of the definition.
+/// and restitution 0 everywhere; no body sleeps. Every number of it is part of the definition.
 struct Workload {
   std::string_view name;
   bool small = false;
   int steps = 0;
   std::vector<BodyDef> bodies;
   std::vector<WorkloadJoint> joints;
+  std::vector<ParticleSystemDef> particles;
   bool collides = true;  ///< whether any two of its bodies may touch
   std::optional<ToriOnTerrain> tori;
 };
@@ -49,7 +51,7 @@ struct WorkloadEntry {
   Workload (*make)(bool small);
 };
 
-/// W1 to W8 in their order.
+/// W1 to W9 in their order.
 const std::vector<WorkloadEntry>& all_workloads();
 /// The workload of an entry, with its name.
 Workload make_workload(const WorkloadEntry& entry, bool small = false);

@@ -107,7 +107,7 @@ TEST_CASE("bench takes settings, refuses what it does not know, and says so by i
   CHECK(code({"--trace", "/proc/x"}) == 5);
   CHECK(code({"--threads", "-1"}) == 2);
   CHECK(code({"--steps", "0"}) == 2);
-  const ProgramRun unknown = tumble_program({"bench", "W9"});
+  const ProgramRun unknown = tumble_program({"bench", "W99"});
   CHECK(unknown.code == 2);
   CHECK(mentions(unknown.err, "'W9'"));
   CHECK(unknown.out.empty());

@@ -17,6 +17,7 @@ nlohmann::ordered_json json_of(const WorkloadRun& r) {
           {"steps", r.steps},
           {"bodies", r.bodies},
           {"joints", r.joints},
+          {"particles", r.particles},
           {"mean_ms_per_step", r.wall.mean},
           {"median_ms_per_step", r.wall.median},
           {"p95_ms_per_step", r.wall.p95},
@@ -57,8 +58,8 @@ std::string bench_row(const WorkloadRun& r) {
   std::string out = fmt::format(
       "{:<9}{:>7}{:>8}{:>6}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.0f}{:>9.0f}{:>9.2f}{:>9.3f}"
       "{:>8.2f}{:>8.3f}{:>7}\n",
-      r.workload + (r.small ? " small" : ""), r.bodies, r.threads, r.steps, r.wall.mean,
-      r.wall.median, r.wall.p95, r.wall.most, r.cpu.mean, r.pairs, r.contact_points,
+      r.workload + (r.small ? " small" : ""), r.bodies + r.particles, r.threads, r.steps,
+      r.wall.mean, r.wall.median, r.wall.p95, r.wall.most, r.cpu.mean, r.pairs, r.contact_points,
       1e3 * r.end.overlap.deepest, 1e3 * r.end.overlap.mean(), 1e3 * r.end.joint_gap, r.end.fastest,
       r.end.escaped);
   out += "          ";
