@@ -114,7 +114,8 @@ struct PassDesc {
   TargetId target;
   std::optional<std::array<float, 4>> clear_colour;
   bool clear_depth = true;
-  /// Then its colour is that of another target of the same size, its samples averaged: in this part.
+  /// Then its colour is that of another target of the same size, its samples averaged: in this
+  /// part.
   TargetId averages{};
   ScissorRect averaged_area{};
 };

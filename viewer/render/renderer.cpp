@@ -320,8 +320,8 @@ Status RendererImpl::draw_world(const RenderScene& scene, PictureTargets& target
 
   draw_shadow_passes(scene, setup);
   // Liquids look through to what is behind them.
-  const bool under = targets.canvas() != targets.averaged() && scene.fluids.empty() &&
-                     rim_is_hidden(scene, setup);
+  const bool under =
+      targets.canvas() != targets.averaged() && scene.fluids.empty() && rim_is_hidden(scene, setup);
   // Marks lie over smoke.
   const bool smoke_last = under && lines.all.empty() && points.all.empty();
   canvas_area_ = ScissorRect{0, 0, width, height};

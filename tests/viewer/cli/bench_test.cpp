@@ -109,6 +109,6 @@ TEST_CASE("bench takes settings, refuses what it does not know, and says so by i
   CHECK(code({"--steps", "0"}) == 2);
   const ProgramRun unknown = tumble_program({"bench", "W99"});
   CHECK(unknown.code == 2);
-  CHECK(mentions(unknown.err, "'W9'"));
+  CHECK(mentions(unknown.err, "'W99'"));
   CHECK(unknown.out.empty());
 }

@@ -102,7 +102,7 @@ TEST_CASE("bad usage is 2, with a cure on stderr and nothing on stdout") {
       {"compare", "a.png", "b.png", "--max-cluster", "-1"},
       {"mesh"},
       {"mesh", "x.obj", "--up", "w"},
-      {"bench", "W9"},
+      {"bench", "W99"},
       {"bench", "W1", "--steps", "none"},
       {"bench", "W1", "--repeat", "0"},
       {"check"},
