@@ -1,5 +1,6 @@
 #include "engine/core/text.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/scene_files.hpp"
 
 #include <algorithm>
@@ -74,16 +75,6 @@ int run_action(const CommandAction& action) {
 
 }  // namespace
 
-CLI::Validator natural_number() {
-  return CLI::Validator(
-      [](std::string& text) {
-        const bool digits =
-            !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string{} : "'" + text + "' is not a whole number of 0 or more";
-      },
-      "");
-}
-
 const std::vector<CommandEntry>& all_commands() {
   static const std::vector<CommandEntry> entries = {
       {"open", "open a scene in a window (the default command)", declare_open},
@@ -116,7 +107,8 @@ int run_command_line(std::span<const std::string> arguments) {
   for (const CommandEntry& entry : all_commands()) {
     CLI::App* sub = app.add_subcommand(std::string(entry.name), std::string(entry.doc));
     sub->set_help_flag("-h,--help", "print this help");
-    sub->final_callback([&action, run = entry.declare(*sub)] { action = run; });
+    Options options(*sub);
+    sub->final_callback([&action, run = entry.declare(options)] { action = run; });
   }
 
   std::vector<std::string> reversed = with_command(arguments);

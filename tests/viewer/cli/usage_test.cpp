@@ -102,6 +102,9 @@ TEST_CASE("bad usage is 2, with a cure on stderr and nothing on stdout") {
       {"compare", "a.png", "b.png", "--max-cluster", "-1"},
       {"mesh"},
       {"mesh", "x.obj", "--up", "w"},
+      {"mesh", "x.obj", "--scale", "nan"},
+      {"mesh", "x.obj", "--scale", "0"},
+      {"mesh", "x.obj", "--decompose", "--pieces", "3.5"},
       {"bench", "W99"},
       {"bench", "W1", "--steps", "none"},
       {"bench", "W1", "--repeat", "0"},
@@ -127,6 +130,9 @@ TEST_CASE("messages are short, in plain words, and name a file once") {
       tumble_program({"render", scene, "-o", (folder / "o").string(), "--frames", "-1"});
   CHECK(frames.code == 2);
   CHECK(frames.err.size() < 200);
+  CHECK(mentions(tumble_program({"mesh", "x.obj", "--scale", "nan"}).err,
+                 "'nan' is not a number from 1e-09 to 1000000000"));
+  CHECK(mentions(tumble_program({"mesh", "x.obj", "--up", "w"}).err, "'w' is not one of x, y, z"));
   const ProgramRun assertion =
       tumble_program({"simulate", scene, "--steps", "1", "--assert", "energy.drift"});
   CHECK(assertion.code == 2);

@@ -3,13 +3,13 @@
 #include "engine/scene/workloads/run.hpp"
 #include "viewer/app/bench/report.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/simulate/outputs.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace tumble {
@@ -138,25 +138,26 @@ std::string workload_list() {
 
 }  // namespace
 
-CommandAction declare_bench(CLI::App& app) {
+CommandAction declare_bench(Options& options) {
   auto line = std::make_shared<BenchLine>();
-  app.add_option("name", line->names, "workloads; all of them if none is named");
-  app.add_option("--threads", line->threads, "0: one per core; results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--steps", line->steps, "instead of the workload's own number")
-      ->check(CLI::Range(1, 100'000'000));
-  app.add_flag("--small", line->small, "the small variant of each");
-  app.add_option("--repeat", line->repeat,
-                 "run all so often in turn; the run of least processor time counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--set", line->overrides, "path=value, e.g. settings.realtime.substeps=8")
-      ->allow_extra_args(false);
-  app.add_flag("--json{-}", line->json,
+  options.value("name", line->names, "workloads; all of them if none is named");
+  options.value("--threads", line->threads, "0: one per core; results do not depend on it")
+      .between(0, 1024)
+      .shows_default();
+  options.value("--steps", line->steps, "instead of the workload's own number")
+      .between(1, 100'000'000);
+  options.flag("--small", line->small, "the small variant of each");
+  options
+      .value("--repeat", line->repeat,
+             "run all so often in turn; the run of least processor time counts")
+      .between(1, 1000)
+      .shows_default();
+  options.value("--set", line->overrides, "path=value, e.g. settings.realtime.substeps=8")
+      .one_each();
+  options.flag("--json{-}", line->json,
                "one JSON object on stdout; --json=FILE: into a file, beside the table");
-  app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
-  app.footer(
+  options.value("--trace", line->trace, "times per stage as a Chrome trace");
+  options.footer(
       workload_list() +
       "\nSteps of 1/60 s, nothing sleeps. Times are of World::step() in milliseconds; cpu is\n"
       "processor time of all threads. Pairs and contact points are means over the steps. What is\n"

@@ -1,6 +1,7 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/lesson_check.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/scene_assertions.hpp"
@@ -9,7 +10,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -207,20 +207,20 @@ int run_check(const CheckLine& line) {
 
 }  // namespace
 
-CommandAction declare_check(CLI::App& app) {
+CommandAction declare_check(Options& options) {
   auto line = std::make_shared<CheckLine>();
-  app.add_option("files", line->files, "scene, robot or mesh files, or names of `tumble scenes`")
-      ->required();
-  app.add_option("--set", line->overrides, "path=value, as for `render`")->allow_extra_args(false);
-  app.add_flag(
+  options.value("files", line->files, "scene, robot or mesh files, or names of `tumble scenes`")
+      .required();
+  options.value("--set", line->overrides, "path=value, as for `render`").one_each();
+  const Option run = options.flag(
       "--run", line->run,
       "run scenes until the last of their assertions is decided, with them the questions of "
       "lessons, and the replays of packs");
-  app.add_option("--seconds", line->seconds, "with --run: simulated time of scenes that assert")
-      ->check(CLI::Range(0.0, 1e6))
-      ->needs("--run");
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  options.value("--seconds", line->seconds, "with --run: simulated time of scenes that assert")
+      .between(0.0, 1e6)
+      .needs(run);
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "Every fault is printed as FILE:LINE: PATH: what is wrong. 0 when all are right, else 3; "
       "with\n"
       "--run 1 when an assertion fails or is not reached, or the answer of a lesson is not the "

@@ -1,12 +1,12 @@
 #include "viewer/capture/compare.hpp"
 
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/capture/frame_clock.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -131,25 +131,28 @@ int run_compare(const CompareLine& line) {
 
 }  // namespace
 
-CommandAction declare_compare(CLI::App& app) {
+CommandAction declare_compare(Options& options) {
   auto line = std::make_shared<CompareLine>();
-  app.add_option("expected", line->expected, "picture or folder that is right")->required();
-  app.add_option("actual", line->actual, "picture or folder to judge")->required();
-  app.add_option("--tolerance", line->tolerance,
-                 "difference of a channel that does not count, in steps of 255 or as 2/255")
-      ->capture_default_str();
-  app.add_option("--max-differing", line->max_differing,
-                 "share of pixels that may differ by more, as 0.001 or 0.1%")
-      ->capture_default_str();
-  app.add_option("--max-cluster", line->max_cluster,
-                 "the largest group of touching such pixels must be smaller than this")
-      ->check(natural_number())
-      ->capture_default_str();
-  app.add_option("--diff", line->diff,
-                 "write a picture of the differences (a folder when folders are compared)");
-  app.add_flag("--bless", line->bless, "make the actual pictures the expected ones");
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  options.value("expected", line->expected, "picture or folder that is right").required();
+  options.value("actual", line->actual, "picture or folder to judge").required();
+  options
+      .value("--tolerance", line->tolerance,
+             "difference of a channel that does not count, in steps of 255 or as 2/255")
+      .shows_default();
+  options
+      .value("--max-differing", line->max_differing,
+             "share of pixels that may differ by more, as 0.001 or 0.1%")
+      .shows_default();
+  options
+      .value("--max-cluster", line->max_cluster,
+             "the largest group of touching such pixels must be smaller than this")
+      .natural()
+      .shows_default();
+  options.value("--diff", line->diff,
+                "write a picture of the differences (a folder when folders are compared)");
+  options.flag("--bless", line->bless, "make the actual pictures the expected ones");
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "Equal (0), different or of unequal size (1), unreadable (3). Of folders what differs is "
       "listed\n"
       "first; a file that cannot be read does not keep the others from being compared.\n\n"

@@ -1,11 +1,11 @@
 #include "viewer/context/doctor.hpp"
 
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -34,10 +34,10 @@ void print_json(const std::vector<DoctorEntry>& entries, bool usable) {
 
 }  // namespace
 
-CommandAction declare_doctor(CLI::App& app) {
+CommandAction declare_doctor(Options& options) {
   auto json = std::make_shared<bool>(false);
-  app.add_flag("--json", *json, "one JSON object on stdout");
-  app.footer(
+  options.flag("--json", *json, "one JSON object on stdout");
+  options.footer(
       "Tries the window, every EGL device, EGL surfaceless and OSMesa; each must make a context,\n"
       "draw a triangle and read it back. 0 when at least one works, else 4.");
   return [json]() -> int {

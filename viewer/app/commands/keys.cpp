@@ -1,11 +1,11 @@
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/window/preferences.hpp"
 #include "viewer/interact/key_map.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -66,10 +66,10 @@ int run_keys(bool json) {
 
 }  // namespace
 
-CommandAction declare_keys(CLI::App& app) {
+CommandAction declare_keys(Options& options) {
   auto json = std::make_shared<bool>(false);
-  app.add_flag("--json", *json, "one JSON object on stdout");
-  app.footer(
+  options.flag("--json", *json, "one JSON object on stdout");
+  options.footer(
       "Other keys are written into $XDG_CONFIG_HOME/tumble/keys.json "
       "(~/.config/tumble/keys.json):\n\n"
       "  {\n"

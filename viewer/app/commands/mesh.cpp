@@ -2,6 +2,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/overlays.hpp"
 
@@ -9,7 +10,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace tumble {
@@ -103,81 +103,84 @@ int run_mesh(MeshLine& line) {
 }
 
 /// The options of pieces and distance field.
-void declare_parts(CLI::App& app, MeshLine& line) {
-  auto* decompose =
-      app.add_flag("--decompose", line.decompose, "cut it into convex pieces, for collision");
-  auto* exact = app.add_flag("--exact", line.pieces.exact,
-                             "pieces whose union is the mesh: cut at every reflex edge")
-                    ->needs(decompose);
-  app.add_option("--flat", line.pieces.tolerance,
-                 "of exact pieces: faces that are flat within this are flat [m]")
-      ->check(CLI::Range(0.0, 1e6))
-      ->needs(exact);
-  app.add_option("--concavity", line.pieces.concavity,
-                 "pieces reach no farther outside the mesh [m]; a fiftieth of its diagonal unless "
-                 "given")
-      ->check(CLI::Range(1e-9, 1e6))
-      ->needs(decompose)
-      ->excludes(exact);
-  app.add_option("--pieces", line.pieces.most,
-                 "no more pieces than this; 64 unless given, exact ones 10000")
-      ->check(CLI::Range(1, 10000))
-      ->needs(decompose);
-  app.add_option("--out", line.pieces.file, "write the pieces into this OBJ file")
-      ->needs(decompose);
-  auto* sdf = app.add_flag("--sdf", line.sdf, "signed distance field: cost and error");
-  auto* cell = app.add_option("--cell", line.field.cell,
-                              "side of its cells [m]; a 64th of the longest side unless given")
-                   ->check(CLI::Range(1e-9, 1e6))
-                   ->needs(sdf);
-  app.add_option("--error", line.field.error, "instead: no point near the surface errs by more [m]")
-      ->check(CLI::Range(1e-9, 1e6))
-      ->needs(sdf)
-      ->excludes(cell);
-  app.add_flag("--fit", line.fit, "primitives that stand for it, the best first, and their errors");
-  app.add_flag("--representations", line.representations,
+void declare_parts(Options& options, MeshLine& line) {
+  const Option decompose =
+      options.flag("--decompose", line.decompose, "cut it into convex pieces, for collision");
+  const Option exact = options
+                           .flag("--exact", line.pieces.exact,
+                                 "pieces whose union is the mesh: cut at every reflex edge")
+                           .needs(decompose);
+  options
+      .value("--flat", line.pieces.tolerance,
+             "of exact pieces: faces that are flat within this are flat [m]")
+      .between(0.0, 1e6)
+      .needs(exact);
+  options
+      .value("--concavity", line.pieces.concavity,
+             "pieces reach no farther outside the mesh [m]; a fiftieth of its diagonal unless "
+             "given")
+      .between(1e-9, 1e6)
+      .needs(decompose)
+      .excludes(exact);
+  options
+      .value("--pieces", line.pieces.most,
+             "no more pieces than this; 64 unless given, exact ones 10000")
+      .between(1, 10000)
+      .needs(decompose);
+  options.value("--out", line.pieces.file, "write the pieces into this OBJ file").needs(decompose);
+  const Option sdf = options.flag("--sdf", line.sdf, "signed distance field: cost and error");
+  const Option cell = options
+                          .value("--cell", line.field.cell,
+                                 "side of its cells [m]; a 64th of the longest side unless given")
+                          .between(1e-9, 1e6)
+                          .needs(sdf);
+  options.value("--error", line.field.error, "instead: no point near the surface errs by more [m]")
+      .between(1e-9, 1e6)
+      .needs(sdf)
+      .excludes(cell);
+  options.flag("--fit", line.fit, "primitives that stand for it, the best first, and their errors");
+  options.flag("--representations", line.representations,
                "what it may collide as, side by side: errors both ways, bytes, pieces, cost");
-  app.add_option("--slices", line.field.slices, "draw slices of it into this folder as PNG")
-      ->needs(sdf);
+  options.value("--slices", line.field.slices, "draw slices of it into this folder as PNG")
+      .needs(sdf);
 }
 
 }  // namespace
 
-CommandAction declare_mesh(CLI::App& app) {
+CommandAction declare_mesh(Options& options) {
   auto line = std::make_shared<MeshLine>();
-  app.add_option("file", line->file, "OBJ, STL, PLY, OFF, glTF, DAE and many more")->required();
-  app.add_option("--scale", line->scale, "metres per unit of the file")
-      ->check(CLI::Range(1e-9, 1e9))
-      ->capture_default_str();
-  app.add_option("--up", line->up, "axis of the file that points up")
-      ->check(CLI::IsMember({"x", "y", "z"}))
-      ->capture_default_str();
-  app.add_option("--weld", line->weld,
-                 "vertices this near are one, and corners this near to a side lie on it [m]; a "
-                 "billionth of the size unless given")
-      ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--density", line->density, "of mass and inertia [kg/m3]")
-      ->check(CLI::Range(1e-9, 1e9))
-      ->capture_default_str();
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  auto* render = app.add_option("--render", line->render,
-                                "draw it into this PNG file, which is replaced if it exists");
-  auto* kind =
-      app.add_option("--hierarchy", line->picture.hierarchy, "volumes of this kind around it")
-          ->check(CLI::IsMember(drawn_hierarchies()))
-          ->needs(render);
-  app.add_option("--level", line->picture.level, "of that hierarchy; 0 is the root")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str()
-      ->needs(kind);
-  app.add_option("--size", line->size, "width x height in pixels")
-      ->capture_default_str()
-      ->needs(render);
-  app.add_option("--context", line->picture.context, "what draws: " + context_list())
-      ->capture_default_str()
-      ->needs(render);
-  declare_parts(app, *line);
-  app.footer(
+  options.value("file", line->file, "OBJ, STL, PLY, OFF, glTF, DAE and many more").required();
+  options.value("--scale", line->scale, "metres per unit of the file")
+      .between(1e-9, 1e9)
+      .shows_default();
+  options.value("--up", line->up, "axis of the file that points up")
+      .one_of({"x", "y", "z"})
+      .shows_default();
+  options
+      .value("--weld", line->weld,
+             "vertices this near are one, and corners this near to a side lie on it [m]; a "
+             "billionth of the size unless given")
+      .between(0.0, 1e6);
+  options.value("--density", line->density, "of mass and inertia [kg/m3]")
+      .between(1e-9, 1e9)
+      .shows_default();
+  options.flag("--json", line->json, "one JSON object on stdout");
+  const Option render = options.value("--render", line->render,
+                                      "draw it into this PNG file, which is replaced if it exists");
+  const Option kind =
+      options.value("--hierarchy", line->picture.hierarchy, "volumes of this kind around it")
+          .one_of(drawn_hierarchies())
+          .needs(render);
+  options.value("--level", line->picture.level, "of that hierarchy; 0 is the root")
+      .between(0, 100)
+      .shows_default()
+      .needs(kind);
+  options.value("--size", line->size, "width x height in pixels").shows_default().needs(render);
+  options.value("--context", line->picture.context, "what draws: " + context_list())
+      .shows_default()
+      .needs(render);
+  declare_parts(options, *line);
+  options.footer(
       "Facts are those of the mesh after loading has cleaned it up; what that changed is listed.\n"
       "0 for everything that was loaded, closed or not; 3 for what cannot be. Lengths in metres,\n"
       "inertia about the centre of mass.\n\n"

@@ -1,6 +1,7 @@
 #include "engine/scene/catalogue.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/editing/unsaved_work.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/scene_files.hpp"
 #include "viewer/app/scenes/scene_replay.hpp"
@@ -13,8 +14,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-
-#include <CLI/CLI.hpp>
 
 namespace tumble {
 namespace {
@@ -98,27 +97,27 @@ int run_open(OpenLine& line) {
 
 }  // namespace
 
-CommandAction declare_open(CLI::App& app) {
+CommandAction declare_open(Options& options) {
   auto line = std::make_shared<OpenLine>();
   line->request.scene = default_scene;
-  app.add_option("scene", line->request.scene,
-                 "scene, robot or mesh file, or a name of `tumble scenes`")
-      ->capture_default_str();
-  app.add_option("--threads", line->request.threads, "of the simulation; 0: one per core")
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--stepper", line->request.stepper, "instead of the scene's");
-  app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
-      ->allow_extra_args(false);
-  declare_replay(app, line->request.replay);
-  app.add_option("--size", line->size, "of the window, WxH")->capture_default_str();
-  app.add_option("--scale", line->scale, "size of panels and text; 0: the monitor's")
-      ->check(CLI::Range(0.0, 8.0));
-  app.add_option("--captures", line->capture_folder, "folder for screenshots and sequences")
-      ->capture_default_str();
+  options
+      .value("scene", line->request.scene,
+             "scene, robot or mesh file, or a name of `tumble scenes`")
+      .shows_default();
+  options.value("--threads", line->request.threads, "of the simulation; 0: one per core")
+      .between(0, 1024);
+  options.value("--stepper", line->request.stepper, "instead of the scene's");
+  options.value("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3").one_each();
+  declare_replay(options, line->request.replay);
+  options.value("--size", line->size, "of the window, WxH").shows_default();
+  options.value("--scale", line->scale, "size of panels and text; 0: the monitor's")
+      .between(0.0, 8.0);
+  options.value("--captures", line->capture_folder, "folder for screenshots and sequences")
+      .shows_default();
   // For tests and demonstrations, see viewer/app/README.md.
-  app.add_option("--status-file", line->status_file)->group("");
-  app.add_option("--script", line->script)->group("");
-  app.footer(
+  options.value("--status-file", line->status_file).hidden();
+  options.value("--script", line->script).hidden();
+  options.footer(
       "Without a display it says so and exits 4; `tumble render` needs none. F1 shows every "
       "key.\n\n"
       "Examples:\n"

@@ -1,4 +1,5 @@
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/packed_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -6,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -53,17 +53,17 @@ int run_pack(const PackLine& line) {
 
 }  // namespace
 
-CommandAction declare_pack(CLI::App& app) {
+CommandAction declare_pack(Options& options) {
   auto line = std::make_shared<PackLine>();
-  app.add_option("scene", line->scene, "scene, robot or mesh file, or a name of `tumble scenes`")
-      ->required();
-  app.add_option("file,-o,--output", line->file, "the pack to write, e.g. my.tumble")->required();
-  app.add_option("--replay", line->replay,
-                 "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
-                 "window by Ctrl+F9; it is run first");
-  app.add_flag("--force", line->force, "overwrite a file that exists");
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  options.value("scene", line->scene, "scene, robot or mesh file, or a name of `tumble scenes`")
+      .required();
+  options.value("file,-o,--output", line->file, "the pack to write, e.g. my.tumble").required();
+  options.value("--replay", line->replay,
+                "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
+                "window by Ctrl+F9; it is run first");
+  options.flag("--force", line->force, "overwrite a file that exists");
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "One file with the scene and all that it needs: its meshes, the robots in it, its lesson. "
       "open,\n"
       "render, simulate, verify and check read it in place of a scene, and dropped on the window "

@@ -2,6 +2,7 @@
 #include "engine/scene/pack/pack.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/scene_files.hpp"
 #include "viewer/app/scenes/scene_look.hpp"
@@ -16,7 +17,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -286,40 +286,40 @@ std::string overlay_names() {
 
 }  // namespace
 
-CommandAction declare_render(CLI::App& app) {
+CommandAction declare_render(Options& options) {
   auto line = std::make_shared<RenderLine>();
-  app.add_option("scene", line->request.scene,
-                 "scene, robot or mesh file, or a name of `tumble scenes`")
-      ->required();
-  app.add_option("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json");
-  app.add_option("--video", line->video,
-                 "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that");
-  app.add_option("--frames", line->frames, "number of frames")->check(natural_number());
-  app.add_option("--seconds", line->seconds,
-                 "instead: simulated time; round(seconds * fps) frames; with a replay neither is "
-                 "needed");
-  app.add_option("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")
-      ->capture_default_str();
-  app.add_option("--size", line->size, "width x height in pixels")->capture_default_str();
-  app.add_option("--camera", line->camera, "a camera of the scene; the first one unless given");
-  app.add_option("--context", line->context, "what draws: " + context_list())
-      ->capture_default_str();
-  app.add_option("--threads", line->request.threads, "of the simulation; 0: one per core")
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--stepper", line->request.stepper, "instead of the scene's");
-  app.add_option("--overlay", line->overlay,
-                 "instead of the scene's, comma-separated: none " + overlay_names());
-  app.add_option("--quality", line->quality,
-                 "draft: no anti-aliasing, for a quick look; standard; high: finer shadows")
-      ->capture_default_str();
-  app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
-      ->allow_extra_args(false);
-  declare_replay(app, line->request.replay);
-  app.add_flag("--resume", line->resume, "go on with the frames of an interrupted run");
-  app.add_flag("--force", line->force, "overwrite frames that exist");
-  app.add_flag("-q,--quiet", line->quiet, "no progress, only warnings and errors");
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  options
+      .value("scene", line->request.scene,
+             "scene, robot or mesh file, or a name of `tumble scenes`")
+      .required();
+  options.value("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json");
+  options.value("--video", line->video,
+                "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that");
+  options.value("--frames", line->frames, "number of frames").natural();
+  options.value("--seconds", line->seconds,
+                "instead: simulated time; round(seconds * fps) frames; with a replay neither is "
+                "needed");
+  options.value("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")
+      .shows_default();
+  options.value("--size", line->size, "width x height in pixels").shows_default();
+  options.value("--camera", line->camera, "a camera of the scene; the first one unless given");
+  options.value("--context", line->context, "what draws: " + context_list()).shows_default();
+  options.value("--threads", line->request.threads, "of the simulation; 0: one per core")
+      .between(0, 1024);
+  options.value("--stepper", line->request.stepper, "instead of the scene's");
+  options.value("--overlay", line->overlay,
+                "instead of the scene's, comma-separated: none " + overlay_names());
+  options
+      .value("--quality", line->quality,
+             "draft: no anti-aliasing, for a quick look; standard; high: finer shadows")
+      .shows_default();
+  options.value("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3").one_each();
+  declare_replay(options, line->request.replay);
+  options.flag("--resume", line->resume, "go on with the frames of an interrupted run");
+  options.flag("--force", line->force, "overwrite frames that exist");
+  options.flag("-q,--quiet", line->quiet, "no progress, only warnings and errors");
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "Frame 0 is the initial state, frame k the state at k/fps. Each file appears whole or not "
       "at\n"
       "all; Ctrl-C stops between two frames (130), and --resume goes on.\n\n"

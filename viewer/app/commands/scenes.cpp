@@ -1,12 +1,12 @@
 #include "engine/scene/resources.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/scene_files.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -57,9 +57,9 @@ int run_scenes(bool json) {
 
 }  // namespace
 
-CommandAction declare_scenes(CLI::App& app) {
+CommandAction declare_scenes(Options& options) {
   auto json = std::make_shared<bool>(false);
-  app.add_flag("--json", *json, "one JSON object on stdout");
+  options.flag("--json", *json, "one JSON object on stdout");
   return [json] { return run_scenes(*json); };
 }
 

@@ -5,6 +5,7 @@
 #include "engine/world/replay.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/quantities.hpp"
 #include "viewer/app/scenes/scene_assertions.hpp"
@@ -21,7 +22,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -358,50 +358,51 @@ int run_simulate(SimulateLine& line) {
 
 }  // namespace
 
-CommandAction declare_simulate(CLI::App& app) {
+CommandAction declare_simulate(Options& options) {
   auto line = std::make_shared<SimulateLine>();
-  app.add_option("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
-      ->required();
-  app.add_option("--seconds", line->seconds,
-                 "simulated time, e.g. 2.5; with a replay that of the replay, unless given");
-  app.add_option("--steps", line->steps, "instead: number of ticks")->check(natural_number());
-  app.add_option("--threads", line->request.threads, "0: one per core; results do not depend on it")
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--stepper", line->request.stepper, "instead of the scene's");
-  app.add_option("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3")
-      ->allow_extra_args(false);
-  auto* csv = app.add_option(
+  options.value("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
+      .required();
+  options.value("--seconds", line->seconds,
+                "simulated time, e.g. 2.5; with a replay that of the replay, unless given");
+  options.value("--steps", line->steps, "instead: number of ticks").natural();
+  options.value("--threads", line->request.threads, "0: one per core; results do not depend on it")
+      .between(0, 1024);
+  options.value("--stepper", line->request.stepper, "instead of the scene's");
+  options.value("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3").one_each();
+  const Option csv = options.value(
       "--csv", line->csv,
       "energies, momenta, contacts, work of every cause and times per stage, a row a tick");
-  auto* contacts =
-      app.add_option("--contacts", line->contacts,
-                     "every contact of every tick as CSV; a .json file gets the certificates of "
-                     "the contacts at the end");
-  auto* joints = app.add_option("--joints", line->joints,
-                                "force and torque of every joint as CSV: at each tick, and the "
-                                "means over the tick before");
-  auto* trace = app.add_option("--trace", line->trace, "times per stage as a Chrome trace");
-  app.add_option("--replay", line->replay,
-                 "the run as a replay, for `tumble pack --replay`: what was done, and the hash");
-  declare_replay(app, line->request.replay);
-  auto* hash =
-      app.add_flag("--hash{final}", line->hash,
+  const Option contacts =
+      options.value("--contacts", line->contacts,
+                    "every contact of every tick as CSV; a .json file gets the certificates of "
+                    "the contacts at the end");
+  const Option joints =
+      options.value("--joints", line->joints,
+                    "force and torque of every joint as CSV: at each tick, and the "
+                    "means over the tick before");
+  const Option trace = options.value("--trace", line->trace, "times per stage as a Chrome trace");
+  options.value("--replay", line->replay,
+                "the run as a replay, for `tumble pack --replay`: what was done, and the hash");
+  declare_replay(options, line->request.replay);
+  const Option hash =
+      options.flag("--hash{final}", line->hash,
                    "print the state hash at the end, with =EVERY also every so many ticks");
-  auto* asserts =
-      app.add_option("--assert", line->asserts, "expression that must hold at the end, else exit 1")
-          ->allow_extra_args(false);
-  auto* particles = declare_export(app, line->particles);
-  app.add_flag("--convergence", line->convergence,
-               "instead: runs with the tick, half and a quarter of it, errors and observed order")
-      ->excludes(csv)
-      ->excludes(contacts)
-      ->excludes(joints)
-      ->excludes(trace)
-      ->excludes(hash)
-      ->excludes(asserts)
-      ->excludes(particles);
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  const Option asserts =
+      options.value("--assert", line->asserts, "expression that must hold at the end, else exit 1")
+          .one_each();
+  const Option particles = declare_export(options, line->particles);
+  options
+      .flag("--convergence", line->convergence,
+            "instead: runs with the tick, half and a quarter of it, errors and observed order")
+      .excludes(csv)
+      .excludes(contacts)
+      .excludes(joints)
+      .excludes(trace)
+      .excludes(hash)
+      .excludes(asserts)
+      .excludes(particles);
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "The assertions of the scene are judged too; one that fails ends with 1.\n\n"
       "Quantities of --assert:\n  " +
       quantity_help() +

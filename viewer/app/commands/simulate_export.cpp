@@ -1,10 +1,10 @@
 #include "viewer/app/commands/simulate_export.hpp"
 
 #include "engine/world/world.hpp"
+#include "viewer/app/options.hpp"
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace tumble {
@@ -29,26 +29,28 @@ Result<double> cell_of(const std::string& text) {
 
 }  // namespace
 
-CLI::Option* declare_export(CLI::App& app, ExportLine& line) {
-  auto* folder = app.add_option(
+Option declare_export(Options& options, ExportLine& line) {
+  const Option folder = options.value(
       "--export", line.folder,
       "folder for the particles, a file for each system and frame, e.g. water_000000.ply, and "
       "particles.json");
-  app.add_option("--format", line.format,
-                 "of these files: ply (binary), or vtu (VTK XML, with a .pvd for each system)")
-      ->check(CLI::IsMember(particle_formats()))
-      ->capture_default_str()
-      ->needs(folder);
-  app.add_option("--fps", line.fps, "their frames per simulated second: 30, 23.976 or 30000/1001")
-      ->capture_default_str()
-      ->needs(folder);
-  app.add_flag("--surface{auto}", line.surface,
-               "also a mesh of the skin about the particles of each system, e.g. "
-               "water-surface_000000.ply; =METRES: size of its cells, else half the mean radius")
-      ->needs(folder);
-  app.add_flag("--resume", line.resume, "go on with the files of an interrupted export")
-      ->needs(folder);
-  app.add_flag("--force", line.force, "overwrite files of an export, and a replay");
+  options
+      .value("--format", line.format,
+             "of these files: ply (binary), or vtu (VTK XML, with a .pvd for each system)")
+      .one_of(particle_formats())
+      .shows_default()
+      .needs(folder);
+  options.value("--fps", line.fps, "their frames per simulated second: 30, 23.976 or 30000/1001")
+      .shows_default()
+      .needs(folder);
+  options
+      .flag("--surface{auto}", line.surface,
+            "also a mesh of the skin about the particles of each system, e.g. "
+            "water-surface_000000.ply; =METRES: size of its cells, else half the mean radius")
+      .needs(folder);
+  options.flag("--resume", line.resume, "go on with the files of an interrupted export")
+      .needs(folder);
+  options.flag("--force", line.force, "overwrite files of an export, and a replay");
   return folder;
 }
 

@@ -1,11 +1,7 @@
 #pragma once
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/simulate/particle_export.hpp"
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 namespace tumble {
 
@@ -16,7 +12,7 @@ struct ExportLine {
 };
 
 /// Declares them; gives --export, on which the others depend.
-CLI::Option* declare_export(CLI::App& app, ExportLine& line);
+Option declare_export(Options& options, ExportLine& line);
 
 /// What they ask of a run of so many ticks: round(seconds * fps) frames, at least the first one.
 /// Error `invalid_argument` for a bad rate.

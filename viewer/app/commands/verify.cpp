@@ -1,4 +1,5 @@
 #include "viewer/app/command.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -9,7 +10,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -126,25 +126,26 @@ int run_verify(const VerifyLine& line) {
 
 }  // namespace
 
-CommandAction declare_verify(CLI::App& app) {
+CommandAction declare_verify(Options& options) {
   auto line = std::make_shared<VerifyLine>();
-  app.add_option("scene", line->scene, "scene file, or a name of `tumble scenes`")->required();
-  app.add_option("--a", line->a, "path=value, for world A only")->allow_extra_args(false);
-  app.add_option("--b", line->b, "path=value, for world B only")->allow_extra_args(false);
-  app.add_option("--set", line->common, "path=value, for both")->allow_extra_args(false);
-  app.add_option("--threads-a", line->threads_a, "of world A; 0: one per core")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--threads-b", line->threads_b, "of world B; 0: one per core")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  app.add_option("--seconds", line->seconds, "simulated time")->capture_default_str();
-  app.add_option("--tolerance", line->tolerance,
-                 "how far apart the two may be [m]; 0: they must have the same bits")
-      ->capture_default_str();
-  app.add_option("--csv", line->csv, "how far they are apart at every common tick");
-  app.add_flag("--json", line->json, "one JSON object on stdout");
-  app.footer(
+  options.value("scene", line->scene, "scene file, or a name of `tumble scenes`").required();
+  options.value("--a", line->a, "path=value, for world A only").one_each();
+  options.value("--b", line->b, "path=value, for world B only").one_each();
+  options.value("--set", line->common, "path=value, for both").one_each();
+  options.value("--threads-a", line->threads_a, "of world A; 0: one per core")
+      .shows_default()
+      .between(0, 1024);
+  options.value("--threads-b", line->threads_b, "of world B; 0: one per core")
+      .shows_default()
+      .between(0, 1024);
+  options.value("--seconds", line->seconds, "simulated time").shows_default();
+  options
+      .value("--tolerance", line->tolerance,
+             "how far apart the two may be [m]; 0: they must have the same bits")
+      .shows_default();
+  options.value("--csv", line->csv, "how far they are apart at every common tick");
+  options.flag("--json", line->json, "one JSON object on stdout");
+  options.footer(
       "Steps the same scene twice, side by side. Exit code 1 where the two differ, with the "
       "moment\n"
       "and the body or particle that is farthest off; without --csv it ends there.\n\n"

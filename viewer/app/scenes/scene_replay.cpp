@@ -1,13 +1,13 @@
 #include "viewer/app/scenes/scene_replay.hpp"
 
 #include "engine/scene/pack/pack.hpp"
+#include "viewer/app/options.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <filesystem>
 #include <span>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace tumble {
@@ -49,12 +49,12 @@ Status ReplayPlayer::verdict() const {
                source_, "record it anew with this version of Tumble"};
 }
 
-void declare_replay(CLI::App& app, ReplayWish& wish) {
-  auto* file = app.add_option(
+void declare_replay(Options& options, ReplayWish& wish) {
+  const Option file = options.value(
       "--play", wish.file,
       "a replay of this scene, as `tumble simulate --replay` writes them, is played; a pack's own "
       "is played without being asked for, unless another is given here");
-  app.add_flag("--no-replay", wish.none, "the replay of a pack is not played")->excludes(file);
+  options.flag("--no-replay", wish.none, "the replay of a pack is not played").excludes(file);
 }
 
 Result<std::shared_ptr<ReplayPlayer>> replay_of(const SceneRequest& request,

@@ -7,11 +7,9 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace tumble {
+
+class Options;
 
 /// Plays a replay into the world of its scene.
 class ReplayPlayer {
@@ -51,7 +49,7 @@ class ReplayPlayer {
 };
 
 /// Declares --play and --no-replay.
-void declare_replay(CLI::App& app, ReplayWish& wish);
+void declare_replay(Options& options, ReplayWish& wish);
 
 /// What is played with a scene that has been loaded: the file of the request's wish, else the
 /// replay of its pack; null where there is neither, or none is wished for. What was done at the
