@@ -1,8 +1,9 @@
 #pragma once
+#include "engine/core/result.hpp"
 #include "engine/scene/description.hpp"
 #include "engine/scene/fault.hpp"
 #include "engine/world/microscope/microscope.hpp"
-#include "engine/world/world.hpp"
+#include "engine/world/world_def.hpp"
 
 #include <map>
 #include <memory>

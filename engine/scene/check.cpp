@@ -2,6 +2,7 @@
 
 #include "engine/scene/build.hpp"
 #include "engine/scene/catalogue.hpp"
+#include "engine/world/world.hpp"
 
 namespace tumble {
 

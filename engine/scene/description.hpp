@@ -59,6 +59,14 @@ struct SceneDescription {
   std::shared_ptr<const SceneSource> source;  ///< null for scenes made by code
   std::vector<std::string> warnings;          ///< what the reader could not do as asked
 
+  // Compiled once, in description.cpp: a hundred structs are copied and destroyed with a scene.
+  SceneDescription();
+  ~SceneDescription();
+  SceneDescription(const SceneDescription& other);
+  SceneDescription(SceneDescription&& other) noexcept;
+  SceneDescription& operator=(const SceneDescription& other);
+  SceneDescription& operator=(SceneDescription&& other) noexcept;
+
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.field(d.tumble_scene, {.name = "tumble_scene",

@@ -56,7 +56,7 @@ SceneRead read_scene(std::string_view text, const std::string& file, const ReadO
     if (!comes_first(o)) apply_override(*root, o, faults);
 
   ReadContext context{file, faults, {}};
-  ObjectReader::read_object(context, *root, {}, out.scene);
+  read_object(context, *root, {}, struct_ref(out.scene));
   auto source = std::make_shared<SceneSource>();
   source->file = file;
   source->folder = std::filesystem::path(file).parent_path();

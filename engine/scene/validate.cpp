@@ -303,7 +303,7 @@ std::vector<Fault> validate(const SceneDescription& scene) {
   const FaultSink sink = [&](std::string path, std::string message) {
     faults.add(fault_at(scene, std::move(path), std::move(message)));
   };
-  ObjectValidator(sink, {}).part(scene);
+  validate_object(struct_ref(scene), {}, sink);
   ReferenceCheck(scene, sink).run();
   return faults.sorted();
 }

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 struct Apply {
-  World::State& s;
+  WorldState& s;
 
   /// Wakes a body of which no more is changed than what it was given, so that the rest of the world
   /// may sleep on.
@@ -390,7 +390,7 @@ bool names_bodies(const Command& command) {
          std::holds_alternative<DestroySensor>(command);
 }
 
-Status apply_command(World::State& state, const Command& command) {
+Status apply_command(WorldState& state, const Command& command) {
   if (!names_bodies(command)) state.forget_bodies();
   return std::visit(Apply{state}, command);
 }

@@ -13,16 +13,16 @@
 namespace tumble {
 namespace {
 
-bool awake(const World::State& s, uint32_t slot) {
+bool awake(const WorldState& s, uint32_t slot) {
   return slot != no_body && s.bodies.bodies[slot].awake();
 }
 
-bool dynamic(const World::State& s, uint32_t slot) {
+bool dynamic(const WorldState& s, uint32_t slot) {
   return slot != no_body && s.bodies.bodies[slot].dynamic();
 }
 
 /// Whether time-stepping moved the joint in the last tick, which tells all about it.
-bool time_stepped(const World::State& s, const Joint& joint) {
+bool time_stepped(const WorldState& s, const Joint& joint) {
   return std::ranges::any_of(std::array{joint.a, joint.b}, [&s](uint32_t slot) {
     return dynamic(s, slot) && s.event.time_stepped[slot].last > 0;
   });
@@ -30,7 +30,7 @@ bool time_stepped(const World::State& s, const Joint& joint) {
 
 /// Under the event stepper, which does not tell: the values of the coordinates, and what smooth
 /// forces did along them, as the mean of the ends of the tick.
-void follow_events(World::State& s, Joint& joint, double h) {
+void follow_events(WorldState& s, Joint& joint, double h) {
   if (time_stepped(s, joint)) return;
   const size_t kept = row_count(joint.kind);
   if (!dynamic(s, joint.a) && !dynamic(s, joint.b)) joint.moving_force.fill(0);
@@ -43,7 +43,7 @@ void follow_events(World::State& s, Joint& joint, double h) {
 }
 
 /// What the joint did to B in the mean of the tick.
-JointWrench mean_load(const World::State& s, const Joint& joint) {
+JointWrench mean_load(const WorldState& s, const Joint& joint) {
   if (s.settings.stepper == "event") {
     JointWrench load = mean_wrench(joint, joint_sides(joint, s.bodies.bodies));
     const auto slot = uint32_t(&joint - s.joints.joints.data());
@@ -58,7 +58,7 @@ JointWrench mean_load(const World::State& s, const Joint& joint) {
   return {force, joint.push.moment_b / h - arm.cross(force)};
 }
 
-Status break_joint(World::State& s, JointId id, const JointWrench& load) {
+Status break_joint(WorldState& s, JointId id, const JointWrench& load) {
   const JointDef& def = s.joints.defs[id.index];
   if (s.log_sink)
     s.log_sink(LogLevel::info,
@@ -75,7 +75,7 @@ Status break_joint(World::State& s, JointId id, const JointWrench& load) {
 
 }  // namespace
 
-void begin_joints(World::State& s) {
+void begin_joints(WorldState& s) {
   s.stats.broken_joints = 0;
   for (const uint32_t slot : s.joints.watched) {
     Joint& joint = s.joints.joints[slot];
@@ -85,7 +85,7 @@ void begin_joints(World::State& s) {
   }
 }
 
-Status end_joints(World::State& s) {
+Status end_joints(WorldState& s) {
   const bool events = s.settings.stepper == "event";
   const double h = s.settings.tick.tick();
   std::vector<std::pair<JointId, JointWrench>> broken;

@@ -48,7 +48,7 @@ SpringMesh without(const SpringMesh& mesh, const std::set<Edge>& torn) {
 
 }  // namespace
 
-void break_springs(World::State& s) {
+void break_springs(WorldState& s) {
   for (uint32_t slot = 0; slot < s.forces.size(); ++slot) {
     auto* def = s.forces[slot] ? std::get_if<SpringMeshDef>(&*s.forces[slot]) : nullptr;
     if (!def || !(def->break_strain > 0)) continue;

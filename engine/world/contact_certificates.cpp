@@ -4,6 +4,7 @@
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -39,7 +40,7 @@ ContactCertificate realtime_certificate(const Contact& contact, int i,
   return c;
 }
 
-ContactCertificates realtime_certificates(const World::State& s) {
+ContactCertificates realtime_certificates(const WorldState& s) {
   ContactCertificates out;
   double force = 0, speed = 0;
   for (const Contact* contact : s.contacts.all())
@@ -58,7 +59,7 @@ ContactCertificates realtime_certificates(const World::State& s) {
 }
 
 /// Slots of particles last no longer than the question.
-void name_particles(const World::State& s, ContactCertificates& certificates) {
+void name_particles(const WorldState& s, ContactCertificates& certificates) {
   const auto rename = [&](uint32_t& slot) {
     if (!s.blocks.holds(slot)) return;
     certificates.particles.push_back(s.blocks.name(slot));
@@ -71,7 +72,7 @@ void name_particles(const World::State& s, ContactCertificates& certificates) {
 /// What `ask` answers of the contacts and forces at the present moment, solved as the event stepper
 /// does. Slots of particles are known while it runs.
 template <class Ask>
-auto ask_moment(World::State& s, std::string_view solver, const Ask& ask)
+auto ask_moment(WorldState& s, std::string_view solver, const Ask& ask)
     -> std::invoke_result_t<Ask, std::span<const EventContact>, const SmoothForces&,
                             const ContactForceMethod&> {
   const auto method = contact_force_method(solver, s.settings.event.friction_cone);
@@ -89,7 +90,7 @@ auto ask_moment(World::State& s, std::string_view solver, const Ask& ask)
 }  // namespace
 
 Result<ContactCertificates> World::contact_certificates() const {
-  State& s = *state_;
+  WorldState& s = *state_;
   const Stoppable scope(s.stop);
   if (s.settings.stepper != "event") return realtime_certificates(s);
   return ask_moment(s, s.settings.event.contact_solver,
@@ -103,7 +104,7 @@ Result<ContactCertificates> World::contact_certificates() const {
 }
 
 Result<GroupForceProblem> World::contact_force_problem(BodyId body) const {
-  State& s = *state_;
+  WorldState& s = *state_;
   const Stoppable scope(s.stop);
   if (!s.bodies.find(body))
     return Error{ErrorCode::not_found, "this body is gone", "contact_force_problem", {}};

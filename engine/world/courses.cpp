@@ -32,7 +32,7 @@ Pose pose_at(const BodyDef& def, double t) {
 }
 
 /// The drives of a joint as they are in the tick from now.
-JointDrives drives_now(const World::State& s, const JointDef& def) {
+JointDrives drives_now(const WorldState& s, const JointDef& def) {
   JointDrives out = def.drives;
   const double t0 = s.time(), t1 = s.time_after(), h = s.settings.tick.tick();
   for (CoordinateDrive& d : out) {
@@ -56,7 +56,7 @@ bool differs(const JointDrives& now, const JointDrives& before) {
   return false;
 }
 
-void rouse(World::State& s, uint32_t slot) {
+void rouse(WorldState& s, uint32_t slot) {
   if (slot == no_body) return;
   RigidBody& b = s.bodies.bodies[slot];
   if (!b.dynamic() || !b.asleep) return;
@@ -65,7 +65,7 @@ void rouse(World::State& s, uint32_t slot) {
   s.frames.mark_changed(slot);
 }
 
-void set_targets(World::State& s, uint32_t slot, const JointDrives& drives) {
+void set_targets(WorldState& s, uint32_t slot, const JointDrives& drives) {
   Joint& joint = s.joints.joints[slot];
   if (!joint.drives || differs(drives, *joint.drives)) {
     rouse(s, joint.a);
@@ -80,7 +80,7 @@ struct Aim {
   Vec3 turn;  ///< [rad]
 };
 
-Aim aim_of(const World::State& s, uint32_t slot) {
+Aim aim_of(const WorldState& s, uint32_t slot) {
   const BodyDef& def = *s.body_defs[slot];
   const double from = value_at(def.course->angle, s.time());
   const double to = value_at(def.course->angle, s.time_after());
@@ -95,7 +95,7 @@ bool finite(const Aim& a) {
 }
 
 /// Velocities that lead there.
-void set_velocity(World::State& s, uint32_t slot, const Aim& aim) {
+void set_velocity(WorldState& s, uint32_t slot, const Aim& aim) {
   RigidBody& b = s.bodies.bodies[slot];
   const double h = s.settings.tick.tick();
   const bool moved = is_active(b);
@@ -107,18 +107,18 @@ void set_velocity(World::State& s, uint32_t slot, const Aim& aim) {
 
 }  // namespace
 
-bool has_courses(const World::State& s) {
+bool has_courses(const WorldState& s) {
   return !s.on_course.empty() || !s.joints.timed.empty();
 }
 
-void set_motor_targets(World::State& s) {
+void set_motor_targets(WorldState& s) {
   for (const uint32_t slot : s.joints.timed) {
     const JointDrives drives = drives_now(s, s.joints.defs[slot]);
     if (usable(drives)) s.joints.joints[slot].drives = std::make_shared<const JointDrives>(drives);
   }
 }
 
-Status follow_courses(World::State& s) {
+Status follow_courses(WorldState& s) {
   std::vector<JointDrives> drives;
   for (const uint32_t slot : s.joints.timed) {
     const JointDef& def = s.joints.defs[slot];
@@ -134,7 +134,7 @@ Status follow_courses(World::State& s) {
   return {};
 }
 
-void begin_course(World::State& s, uint32_t slot) {
+void begin_course(WorldState& s, uint32_t slot) {
   const BodyDef& def = *s.body_defs[slot];
   if (!def.course) return;
   const auto at = std::ranges::lower_bound(s.on_course, slot);
@@ -145,7 +145,7 @@ void begin_course(World::State& s, uint32_t slot) {
   b.pose = {frame.point(b.centre_body), frame.q};
 }
 
-void end_course(World::State& s, uint32_t slot) {
+void end_course(WorldState& s, uint32_t slot) {
   const auto at = std::ranges::lower_bound(s.on_course, slot);
   if (at == s.on_course.end() || *at != slot) return;
   s.on_course.erase(at);
@@ -155,7 +155,7 @@ void end_course(World::State& s, uint32_t slot) {
   s.body_defs[slot] = std::make_shared<const BodyDef>(std::move(def));
 }
 
-void find_courses(World::State& s) {
+void find_courses(WorldState& s) {
   s.on_course.clear();
   for (uint32_t slot = 0; slot < s.body_defs.size(); ++slot)
     if (s.body_defs[slot] && s.body_defs[slot]->course) s.on_course.push_back(slot);

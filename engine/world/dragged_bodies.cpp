@@ -27,7 +27,7 @@ struct Sunk {
   double depth = 0;  ///< [m]
 };
 
-Sunk deepest(const World::State& s) {
+Sunk deepest(const WorldState& s) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
   Sunk worst;
   s.contacts.for_each([&](const Contact& c) {
@@ -44,7 +44,7 @@ Sunk deepest(const World::State& s) {
 }
 
 /// A moving kinematic body that touches, or is tied to, an island.
-uint32_t mover_of(const World::State& s, uint32_t island) {
+uint32_t mover_of(const WorldState& s, uint32_t island) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
   uint32_t mover = no_body;
   const auto look = [&](uint32_t slot, uint32_t other) {
@@ -63,7 +63,7 @@ uint32_t mover_of(const World::State& s, uint32_t island) {
 
 }  // namespace
 
-void warn_of_dragged_bodies(World::State& s) {
+void warn_of_dragged_bodies(WorldState& s) {
   if (s.told.dragged || !(s.stats.max_penetration > ordinary)) return;
   const Sunk sunk = deepest(s);
   if (sunk.body == no_body || sunk.body >= s.islands.island_of.size()) return;

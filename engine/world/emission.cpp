@@ -28,7 +28,7 @@ double due_by(const Emitter& e, double time) {
 }
 
 /// Before memory is taken for them.
-Error too_many(const World::State& s, const Emitter& e) {
+Error too_many(const WorldState& s, const Emitter& e) {
   return {ErrorCode::numeric,
           fmt::format("the emitter '{}' makes more than {} at once", e.def->name, most_of_a_system),
           fmt::format("tick {}", s.tick + 1), "give it a lower rate, a shorter life or at_most"};
@@ -39,7 +39,7 @@ enum Gone : uint8_t { stays, dies, in_sink };
 
 class ParticleEmission {
  public:
-  ParticleEmission(World::State& state, const TickBackup& start)
+  ParticleEmission(WorldState& state, const TickBackup& start)
       : s_(state),
         start_(start),
         scratch_(state.workspace.emission),
@@ -275,7 +275,7 @@ class ParticleEmission {
       s_.ledger.book(LedgerLine::removal, entry_of(measure_particles(s_, scratch_.dead), -1));
   }
 
-  World::State& s_;
+  WorldState& s_;
   const TickBackup& start_;
   EmissionScratch& scratch_;
   double h_, end_;
@@ -286,7 +286,7 @@ class ParticleEmission {
 /// Bodies that come and go between ticks, by the commands that an outside would use.
 class BodyEmission {
  public:
-  explicit BodyEmission(World::State& state) : s_(state), end_(state.time_after()) {}
+  explicit BodyEmission(WorldState& state) : s_(state), end_(state.time_after()) {}
 
   Status run() {
     if (Status done = remove(); !done) return done;
@@ -369,7 +369,7 @@ class BodyEmission {
                after.momentum - before.momentum, after.angular_momentum - before.angular_momentum});
   }
 
-  World::State& s_;
+  WorldState& s_;
   double end_;
   bool changed_ = false, did_ = false;
 };
@@ -386,7 +386,7 @@ Result<Emitter> make_emitter(const EmitterDef& def, double time) {
   return out;
 }
 
-void reserve_for_emitters(World::State& s) {
+void reserve_for_emitters(WorldState& s) {
   std::vector<NamedEmitter> emitters;
   for (uint32_t i = 0; i < s.emitters.list.size(); ++i)
     if (s.emitters.ids.alive(i))
@@ -401,7 +401,7 @@ void reserve_for_emitters(World::State& s) {
       s.particles[k].reserve(s.particles[k].size() + size_t(room[k]));
 }
 
-Status emit_particles(World::State& s, const TickBackup& start) {
+Status emit_particles(WorldState& s, const TickBackup& start) {
   const bool mortal = std::ranges::any_of(s.particles, &ParticleSystem::mortal);
   if (s.emitters.ids.count() == 0 && s.sinks.ids.count() == 0 && !mortal) {
     s.workspace.emission.dead.clear();
@@ -411,7 +411,7 @@ Status emit_particles(World::State& s, const TickBackup& start) {
   return ParticleEmission(s, start).run();
 }
 
-Result<bool> emit_bodies(World::State& s) {
+Result<bool> emit_bodies(WorldState& s) {
   const bool emits =
       std::ranges::any_of(s.emitters.list, [](const Emitter& e) { return e.def && e.def->body; });
   const bool takes =
@@ -423,7 +423,7 @@ Result<bool> emit_bodies(World::State& s) {
   return emission.did();
 }
 
-bool emission_to_come(const World::State& s) {
+bool emission_to_come(const WorldState& s) {
   return std::ranges::any_of(s.emitters.list, [](const Emitter& e) {
     return e.def && (!spent(e) || std::ranges::any_of(e.bodies, [](const Emitter::OwnBody& b) {
              return std::isfinite(b.dies);

@@ -19,7 +19,7 @@ constexpr double floor_speed = 100;
 /// What came in from outside, as the books have it: edits, the user, emitters (and what left with
 /// what was removed), moving bodies, motors, and forces that are no springs. All else that they
 /// know only takes energy, or moves it about.
-double energy_given(const World::State& s) {
+double energy_given(const WorldState& s) {
   double sum = 0;
   for (const LedgerLine line :
        {LedgerLine::edits, LedgerLine::user, LedgerLine::emission, LedgerLine::removal,
@@ -43,7 +43,7 @@ struct Fastest {
   }
 };
 
-std::string fastest(const World::State& s) {
+std::string fastest(const WorldState& s) {
   Fastest most;
   for (uint32_t i = 0; i < s.bodies.bodies.size(); ++i)
     if (s.bodies.bodies[i].dynamic() && most.more(s.bodies.bodies[i].kinetic_energy()))
@@ -55,7 +55,7 @@ std::string fastest(const World::State& s) {
   return most.name.empty() ? "no body" : most.name;
 }
 
-double moving_mass(const World::State& s) {
+double moving_mass(const WorldState& s) {
   double sum = 0;
   for (const RigidBody& b : s.bodies.bodies) sum += b.mass;
   for (const ParticleSystem& p : s.particles)
@@ -63,7 +63,7 @@ double moving_mass(const World::State& s) {
   return sum;
 }
 
-Error breakdown(const World::State& s, std::string message) {
+Error breakdown(const WorldState& s, std::string message) {
   return {ErrorCode::numeric, std::move(message),
           fmt::format("tick {}, {} has most of it", s.tick, fastest(s)),
           "use a smaller tick, softer springs or smaller velocities"};
@@ -71,7 +71,7 @@ Error breakdown(const World::State& s, std::string message) {
 
 }  // namespace
 
-Status check_energy(const World::State& s) {
+Status check_energy(const WorldState& s) {
   const StepStats& stats = s.stats;
   const double energy = stats.energies.total();
   if (!std::isfinite(energy) || !stats.momentum.allFinite() || !stats.angular_momentum.allFinite())

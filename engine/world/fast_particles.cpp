@@ -15,14 +15,14 @@ constexpr int most_bounces = 3;
 constexpr double meeting_distance = 1e-6;  ///< how near counts as met [m]
 constexpr double approaching = 1e-9;       ///< faster is a collision [m/s]
 
-bool exchanges(const World::State& s, size_t system) {
+bool exchanges(const WorldState& s, size_t system) {
   const ParticleSystem& p = s.particles[system];
   return s.particle_ids.alive(uint32_t(system)) && p.fast && p.collide && p.size() > 0;
 }
 
 class FastExchange {
  public:
-  FastExchange(World::State& state, const TickBackup& start)
+  FastExchange(WorldState& state, const TickBackup& start)
       : s_(state), h_(state.settings.tick.tick()), start_poses_(start.poses()) {
     finder_.use_threads(s_.crew.get());
     resting_ = 2 * s_.settings.gravity.norm() * h_;
@@ -183,7 +183,7 @@ class FastExchange {
              particle, {0.5 * (v_before + v), Vec3::Zero()}, x, n, impulse, belt, effects_);
   }
 
-  World::State& s_;
+  WorldState& s_;
   double h_;
   double resting_;  ///< slower approach does not bounce [m/s]
   std::vector<Pose> start_poses_;
@@ -196,7 +196,7 @@ class FastExchange {
 };
 
 /// Impulses by their cause; what places were changed by is a correction.
-void book_exchange(World::State& s, const LedgerState& before, const ContactEffects& effects) {
+void book_exchange(WorldState& s, const LedgerState& before, const ContactEffects& effects) {
   measure(s);
   const LedgerState after = measured(s);
   LedgerEntry rest{0, after.energy - before.energy, after.momentum - before.momentum,
@@ -216,7 +216,7 @@ void book_exchange(World::State& s, const LedgerState& before, const ContactEffe
 
 }  // namespace
 
-Status exchange_fast_impulses(World::State& s, const TickBackup& start) {
+Status exchange_fast_impulses(WorldState& s, const TickBackup& start) {
   s.workspace.fast_collisions.clear();
   bool any = false;
   for (size_t k = 0; k < s.particles.size(); ++k) any |= exchanges(s, k);

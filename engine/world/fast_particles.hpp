@@ -3,6 +3,8 @@
 
 namespace tumble {
 
+struct WorldState;
+
 /// What particles of systems that are `fast` and collide, and bodies, do to each other: at the end
 /// of a tick, when both have moved. Each particle goes straight from where the tick found it and
 /// meets bodies on their ways, so that it passes through nothing; there the two exchange one
@@ -12,6 +14,6 @@ namespace tumble {
 /// books. Particles are taken in the order of their ids, each with the velocities that those before
 /// it have left. Sleeping bodies wake only by what would move them faster than bodies sleep. Fast
 /// particles do not meet each other.
-Status exchange_fast_impulses(World::State& state, const TickBackup& start);
+Status exchange_fast_impulses(WorldState& state, const TickBackup& start);
 
 }  // namespace tumble

@@ -31,7 +31,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-std::vector<std::vector<uint32_t>> fluid_sets(const World::State& s) {
+std::vector<std::vector<uint32_t>> fluid_sets(const WorldState& s) {
   // Fluids of a set are told apart by a byte.
   constexpr size_t most = 256;
   std::vector<std::vector<uint32_t>> sets;
@@ -49,7 +49,7 @@ std::vector<std::vector<uint32_t>> fluid_sets(const World::State& s) {
   return sets;
 }
 
-void gather_fluids(const World::State& s, std::span<const uint32_t> set,
+void gather_fluids(const WorldState& s, std::span<const uint32_t> set,
                    FluidWorkspace::Together& to) {
   to.defs.clear(), to.first.clear(), to.fluid.clear(), to.acceleration.clear();
   to.x.clear(), to.v.clear(), to.pressure.clear(), to.mass.clear();
@@ -65,7 +65,7 @@ void gather_fluids(const World::State& s, std::span<const uint32_t> set,
   to.x_before = to.x, to.v_before = to.v;
 }
 
-void scatter_fluids(World::State& s, std::span<const uint32_t> set, std::span<const double> shares,
+void scatter_fluids(WorldState& s, std::span<const uint32_t> set, std::span<const double> shares,
                     const FluidWorkspace::Together& from) {
   for (size_t n = 0; n < set.size(); ++n) {
     ParticleSystem& p = s.particles[set[n]];

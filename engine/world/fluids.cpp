@@ -19,7 +19,7 @@ constexpr double waking_push = 0.1;
 
 class FluidStage {
  public:
-  explicit FluidStage(World::State& s)
+  explicit FluidStage(WorldState& s)
       : s_(s), work_(s.workspace.fluids), h_(s.settings.tick.tick()) {}
 
   Status run(std::span<const std::vector<uint32_t>> sets) {
@@ -249,19 +249,19 @@ class FluidStage {
     return all;
   }
 
-  World::State& s_;
+  WorldState& s_;
   FluidWorkspace& work_;
   const double h_;
 };
 
 }  // namespace
 
-bool is_live_fluid(const World::State& s, size_t system) {
+bool is_live_fluid(const WorldState& s, size_t system) {
   const ParticleSystem& p = s.particles[system];
   return s.particle_ids.alive(uint32_t(system)) && p.fluid && p.size() > 0;
 }
 
-Status move_fluids(World::State& s) {
+Status move_fluids(WorldState& s) {
   s.workspace.fluids.on_bodies.clear();
   const std::vector<std::vector<uint32_t>> sets = fluid_sets(s);
   if (sets.empty()) return {};

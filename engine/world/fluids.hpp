@@ -9,8 +9,8 @@ namespace tumble {
 /// tick, and bodies are where they are at its start. What a fluid does to bodies stays over the
 /// tick as a force, in a share of the books behind those of the forces. Sleeping bodies are walls
 /// to them; those that they push by more than a tenth of a body's own weight wake.
-Status move_fluids(World::State& state);
+Status move_fluids(WorldState& state);
 
-bool is_live_fluid(const World::State& state, size_t system);
+bool is_live_fluid(const WorldState& state, size_t system);
 
 }  // namespace tumble

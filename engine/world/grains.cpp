@@ -25,7 +25,7 @@ struct Sums {
   }
 };
 
-bool alive_grains(const World::State& s, uint32_t k) {
+bool alive_grains(const WorldState& s, uint32_t k) {
   return s.particle_ids.alive(k) && s.particles[k].grains.has_value();
 }
 
@@ -39,7 +39,7 @@ LedgerEntry push_on(const ParticleSystem& from, const ParticleSystem& to, size_t
 
 class GrainBooks {
  public:
-  GrainBooks(World::State& s, const TickBackup& start) : s_(s), start_(start) {}
+  GrainBooks(WorldState& s, const TickBackup& start) : s_(s), start_(start) {}
 
   void book() {
     change();
@@ -120,7 +120,7 @@ class GrainBooks {
     }
   }
 
-  World::State& s_;
+  WorldState& s_;
   const TickBackup& start_;
   double h_ = s_.settings.tick.tick();
   Sums rest_;  ///< the change that nothing explains yet
@@ -128,11 +128,11 @@ class GrainBooks {
 
 }  // namespace
 
-void carry_on_grains(World::State& s) {
+void carry_on_grains(WorldState& s) {
   s.workspace.grains.carry(s.grain_touches, s.bodies, s.settings.gravity, s.settings.tick.tick());
 }
 
-Status step_grains(World::State& s, const TickBackup& start) {
+Status step_grains(WorldState& s, const TickBackup& start) {
   if (!GrainStage::asked_for(s.particle_ids, s.particles) && s.grain_touches.loads().empty())
     return {};
   const ScopedStage stage(s.profiler, "grains");

@@ -17,7 +17,7 @@ struct Side {
   size_t index = 0;
 };
 
-Side side_of(const World::State& s, uint32_t slot) {
+Side side_of(const WorldState& s, uint32_t slot) {
   if ((slot & particle_bit) == 0) return {};
   const ParticleName& name = s.touching_particles[slot & ~particle_bit];
   if (!s.particle_ids.contains(name.system)) return {};
@@ -27,7 +27,7 @@ Side side_of(const World::State& s, uint32_t slot) {
 }
 
 /// A contact of a particle with a body, as a hold.
-void add_hold(const World::State& s, const Contact& c, std::vector<HeldParticle>& out) {
+void add_hold(const WorldState& s, const Contact& c, std::vector<HeldParticle>& out) {
   const Side a = side_of(s, c.key.body_a), b = side_of(s, c.key.body_b);
   if (a.particle == b.particle) return;  // two particles hold each other as well as they can
   const Side& side = a.particle ? a : b;
@@ -56,7 +56,7 @@ void add_hold(const World::State& s, const Contact& c, std::vector<HeldParticle>
 
 }  // namespace
 
-void find_apart(World::State& s, PairFilter& out) {
+void find_apart(WorldState& s, PairFilter& out) {
   s.joints.find_apart(s.bodies.bodies, out);
   const ForceContext context = s.force_context();
   std::vector<uint32_t> slots;
@@ -80,7 +80,7 @@ void find_apart(World::State& s, PairFilter& out) {
   if (any) out.sort();
 }
 
-void find_held_particles(const World::State& s, std::vector<HeldParticle>& out) {
+void find_held_particles(const WorldState& s, std::vector<HeldParticle>& out) {
   out.clear();
   s.particle_contacts.for_each([&](const Contact& c) { add_hold(s, c, out); });
   const auto place = [](const HeldParticle& h) { return std::pair{h.system, h.index}; };

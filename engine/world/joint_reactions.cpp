@@ -7,6 +7,7 @@
 #include "engine/world/present_moment.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/world.hpp"
 
 #include <utility>
 
@@ -62,7 +63,7 @@ std::vector<JointedGroup> jointed_groups(std::span<const RigidBody> bodies,
 
 /// What the contacts of the realtime stepper did to the bodies over the last tick, as forces and
 /// torques that lasted for it, by slot.
-std::vector<JointWrench> realtime_pushes(const World::State& s) {
+std::vector<JointWrench> realtime_pushes(const WorldState& s) {
   const std::span<const RigidBody> bodies = s.bodies.bodies;
   std::vector<JointWrench> out(bodies.size());
   const auto push = [&](uint32_t slot, const Vec3& x, const Vec3& force) {
@@ -87,14 +88,14 @@ std::vector<JointWrench> realtime_pushes(const World::State& s) {
 
 /// Force along a coordinate: that of the moment under the event stepper; the last one that acted
 /// under realtime, which has no other.
-double drive_force(const World::State& s, const Joint& joint, size_t k, const ActingDrive& now) {
+double drive_force(const WorldState& s, const Joint& joint, size_t k, const ActingDrive& now) {
   if (s.settings.stepper == "event") return now.force.total();
   const size_t row = row_count(joint.kind) + k;
   return joint.moving_force[row] + joint.relaxing_force[row];
 }
 
 /// What acted along the coordinates of joints under realtime.
-void add_drive_pushes(const World::State& s, std::vector<JointWrench>& out) {
+void add_drive_pushes(const WorldState& s, std::vector<JointWrench>& out) {
   for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
     if (!s.joints.ids.alive(i)) continue;
     const Joint& joint = s.joints.joints[i];
@@ -111,7 +112,7 @@ void add_drive_pushes(const World::State& s, std::vector<JointWrench>& out) {
 }
 
 /// The same as a wrench on B.
-void add_drive_wrench(const World::State& s, const Joint& joint, const JointSides& sides,
+void add_drive_wrench(const WorldState& s, const Joint& joint, const JointSides& sides,
                       JointWrench& out) {
   for_drives(joint, s.bodies.bodies, 0, [&](size_t k, const ActingDrive& d) {
     const double force = drive_force(s, joint, k, d);
@@ -124,7 +125,7 @@ void add_drive_wrench(const World::State& s, const Joint& joint, const JointSide
 /// Solves for the forces of a group's joints, and tells them by slot of the joints.
 class ReactionSolver {
  public:
-  ReactionSolver(World::State& state, const SmoothForces& forces, const ContactForceMethod& method)
+  ReactionSolver(WorldState& state, const SmoothForces& forces, const ContactForceMethod& method)
       : s_(state),
         forces_(forces),
         method_(method),
@@ -171,14 +172,14 @@ class ReactionSolver {
     add_coordinate_wrench(s_.joints.joints[c.b], c.y, -c.ratio * force, s_.bodies.bodies, out[c.b]);
   }
 
-  World::State& s_;
+  WorldState& s_;
   const SmoothForces& forces_;
   ContactForceMethod method_;
   std::vector<uint32_t> block_of_;
 };
 
 /// By slot of the joints; the bodies end with blocks of particles.
-Result<std::vector<JointWrench>> solve_reactions(World::State& s) {
+Result<std::vector<JointWrench>> solve_reactions(WorldState& s) {
   auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);
   if (!method) return method.error();
@@ -215,7 +216,7 @@ Result<std::vector<JointWrench>> solve_reactions(World::State& s) {
 }  // namespace
 
 Result<std::vector<JointReaction>> World::joint_reactions() const {
-  State& s = *state_;
+  WorldState& s = *state_;
   const Stoppable scope(s.stop);
   std::vector<JointReaction> out;
   if (s.joints.ids.count() == 0) return out;

@@ -29,7 +29,7 @@ namespace {
 /// Bodies whose sums are kept together: where all of them rest the sums stay as they are.
 constexpr size_t block_size = 64;
 
-BodySums sum_block(const World::State& s, size_t block) {
+BodySums sum_block(const WorldState& s, size_t block) {
   const size_t end = std::min((block + 1) * block_size, s.bodies.bodies.size());
   BodySums sum;
   for (size_t i = block * block_size; i < end; ++i)
@@ -38,7 +38,7 @@ BodySums sum_block(const World::State& s, size_t block) {
 }
 
 /// Which blocks are to be summed anew: all, unless it is known that only some have active bodies.
-void find_stale_sums(World::State& s, size_t blocks) {
+void find_stale_sums(WorldState& s, size_t blocks) {
   std::vector<uint32_t>& stale = s.sums.stale;
   stale.clear();
   if (s.roster.everything() || s.sums.blocks.size() != blocks) {
@@ -57,7 +57,7 @@ void find_stale_sums(World::State& s, size_t blocks) {
 }
 
 /// Of all bodies.
-BodySums sum_bodies(World::State& s) {
+BodySums sum_bodies(WorldState& s) {
   const size_t blocks = (s.bodies.bodies.size() + block_size - 1) / block_size;
   find_stale_sums(s, blocks);
   s.sums.blocks.resize(blocks);
@@ -96,7 +96,7 @@ LedgerState ledger_state(const StepStats& stats) {
 
 }  // namespace
 
-void measure(World::State& s) {
+void measure(WorldState& s) {
   StepStats& out = s.stats;
   out.bodies = s.bodies.ids.count();
   out.particles = 0;
@@ -120,11 +120,11 @@ void measure(World::State& s) {
           potential_energy(*force, context);
 }
 
-LedgerState measured(const World::State& s) {
+LedgerState measured(const WorldState& s) {
   return ledger_state(s.stats);
 }
 
-LedgerState measure_particles(World::State& s, std::vector<ParticleSystem>& systems) {
+LedgerState measure_particles(WorldState& s, std::vector<ParticleSystem>& systems) {
   StepStats sum;
   for (const ParticleSystem& p : systems) add_particles(p, s.settings.gravity, sum);
   BodySet no_bodies;

@@ -1,11 +1,12 @@
 #include "engine/core/memory_use.hpp"
 
 #include "engine/world/state.hpp"
+#include "engine/world/world.hpp"
 
 namespace tumble {
 namespace {
 
-void add_definitions(const World::State& s, MemoryUse& use) {
+void add_definitions(const WorldState& s, MemoryUse& use) {
   use.bodies += heap_bytes(s.bodies.bodies, s.body_defs, s.frames.chunks_changed);
   for (const RigidBody& b : s.bodies.bodies) use.bodies += heap_bytes(b.shapes);
   for (const auto& def : s.body_defs)
@@ -25,7 +26,7 @@ void add_frames(const Frame& f, MemoryUse& use) {
 }  // namespace
 
 MemoryUse World::memory_use() const {
-  const State& s = *state_;
+  const WorldState& s = *state_;
   MemoryUse use;
   add_definitions(s, use);
   add_frames(*frame(), use);

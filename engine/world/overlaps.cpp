@@ -1,12 +1,13 @@
 // Which bodies overlap now, whatever the stepper.
 #include "engine/world/state.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 
 std::vector<Overlap> World::overlaps(double deeper) const {
-  const State& s = *state_;
+  const WorldState& s = *state_;
   std::vector<RigidBody> bodies = s.bodies.bodies;
   for (RigidBody& b : bodies) {
     b.asleep = false;

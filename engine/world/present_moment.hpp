@@ -8,7 +8,7 @@ namespace tumble {
 /// it was.
 class PresentMoment {
  public:
-  explicit PresentMoment(World::State& state);
+  explicit PresentMoment(WorldState& state);
   ~PresentMoment();
   PresentMoment(const PresentMoment&) = delete;
   PresentMoment& operator=(const PresentMoment&) = delete;
@@ -17,7 +17,7 @@ class PresentMoment {
   const Status& status() const { return status_; }
 
  private:
-  World::State& state_;
+  WorldState& state_;
   std::vector<RigidBody> bodies_;
   std::vector<std::vector<Vec3>> forces_;  ///< on particles, by system
   Status status_;

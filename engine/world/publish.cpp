@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
+std::shared_ptr<const std::vector<BodyInfo>> make_infos(const WorldState& s) {
   auto infos = std::make_shared<std::vector<BodyInfo>>(s.bodies.ids.capacity());
   for (uint32_t i = 0; i < infos->size(); ++i) {
     if (!s.bodies.ids.alive(i)) continue;
@@ -26,25 +26,25 @@ std::shared_ptr<const std::vector<BodyInfo>> make_infos(const World::State& s) {
   return infos;
 }
 
-uint32_t island_of(const World::State& s, uint32_t i) {
+uint32_t island_of(const WorldState& s, uint32_t i) {
   return i < s.islands.island_of.size() ? s.islands.island_of[i] : 0;
 }
 
-BodyFrame frame_of(const World::State& s, uint32_t i) {
+BodyFrame frame_of(const WorldState& s, uint32_t i) {
   if (!s.bodies.ids.alive(i)) return {};
   const RigidBody& b = s.bodies.bodies[i];
   return {s.bodies.ids.at(i), b.pose, b.v, b.omega, island_of(s, i), b.asleep, b.teleported};
 }
 
 /// Whether a body's entry must be made anew: it moves, or it differs from what was last published.
-bool changed(const World::State& s, const BodyFrame& old, uint32_t i) {
+bool changed(const WorldState& s, const BodyFrame& old, uint32_t i) {
   const RigidBody& b = s.bodies.bodies[i];
   const bool moved = b.pose.x != old.pose.x || b.pose.q.coeffs() != old.pose.q.coeffs();
   return b.awake() || moved || b.asleep != old.asleep || island_of(s, i) != old.island;
 }
 
 /// Bodies `teleported` count as such until they were published: the next frame says so no more.
-void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
+void make_chunk(WorldState& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
   const uint32_t begin = uint32_t(c * Frame::chunk_size);
   const uint32_t end = std::min(begin + uint32_t(Frame::chunk_size), s.bodies.ids.capacity());
   const auto old =
@@ -65,7 +65,7 @@ void make_chunk(World::State& s, size_t c, std::shared_ptr<const Frame::BodyChun
     if (std::exchange(s.bodies.bodies[i].teleported, false)) s.frames.chunks_changed[c] = 1;
 }
 
-void make_chunks(World::State& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {
+void make_chunks(WorldState& s, std::vector<std::shared_ptr<const Frame::BodyChunk>>& chunks) {
   const uint32_t slots = s.bodies.ids.capacity();
   const size_t count = (slots + Frame::chunk_size - 1) / Frame::chunk_size;
   chunks.resize(count);
@@ -111,7 +111,7 @@ void put_contacts(const Frame& frame, std::span<const Contact* const> contacts, 
 using ContactFrames = std::shared_ptr<const std::vector<ContactFrame>>;
 
 /// `points`: about so many.
-ContactFrames make_contacts(World::State& s, const Frame& frame,
+ContactFrames make_contacts(WorldState& s, const Frame& frame,
                             std::span<const Contact* const> contacts, size_t points) {
   const auto out = s.frames.pool.contacts.get();
   if (s.crew->threads() == 1 || contacts.size() < least_parallel) {
@@ -140,7 +140,7 @@ ContactFrames make_contacts(World::State& s, const Frame& frame,
   return out;
 }
 
-ContactFrames make_active_contacts(World::State& s, const Frame& frame) {
+ContactFrames make_active_contacts(WorldState& s, const Frame& frame) {
   const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
   s.frames.contacts.resize(contacts.size());
   for (size_t k = 0; k < contacts.size(); ++k) s.frames.contacts[k] = &contacts[k];
@@ -150,7 +150,7 @@ ContactFrames make_active_contacts(World::State& s, const Frame& frame) {
 }
 
 /// Where nothing was put away or brought back since the last frame, its list.
-ContactFrames make_resting_contacts(World::State& s, const Frame& frame) {
+ContactFrames make_resting_contacts(WorldState& s, const Frame& frame) {
   const uint64_t revision = s.contacts.resting_revision();
   const bool same = s.frames.last && s.frames.resting_revision == revision;
   if (same) return s.frames.last->resting_contacts;
@@ -159,7 +159,7 @@ ContactFrames make_resting_contacts(World::State& s, const Frame& frame) {
 }
 
 /// Over what `out` held: it keeps its memory.
-void make_forces(World::State& s, std::vector<ForceFrame>& out) {
+void make_forces(WorldState& s, std::vector<ForceFrame>& out) {
   const ForceContext context = s.force_context();
   out.resize(s.forces.size());
   size_t count = 0;
@@ -179,7 +179,7 @@ void make_forces(World::State& s, std::vector<ForceFrame>& out) {
   out.resize(count);
 }
 
-std::array<CoordinateFrame, most_coordinates> coordinates_of(const World::State& s,
+std::array<CoordinateFrame, most_coordinates> coordinates_of(const WorldState& s,
                                                              const Joint& joint) {
   Joint now = joint;
   follow_coordinates(now, s.bodies.bodies, 0);
@@ -189,7 +189,7 @@ std::array<CoordinateFrame, most_coordinates> coordinates_of(const World::State&
   return out;
 }
 
-std::shared_ptr<const std::vector<JointFrame>> make_joints(World::State& s) {
+std::shared_ptr<const std::vector<JointFrame>> make_joints(WorldState& s) {
   const auto out = s.frames.pool.joints.get();
   out->resize(s.joints.ids.count());
   auto next = out->begin();
@@ -235,7 +235,7 @@ void publish_surface(const ParticleSystem& p, ParticleFrame& out) {
 }
 
 /// What the drawing of smoke needs besides.
-void publish_smoke(World::State& s, const ParticleSystem& p, ParticleFrame& out) {
+void publish_smoke(WorldState& s, const ParticleSystem& p, ParticleFrame& out) {
   out.opacity.clear();
   out.age.clear();
   if (p.look.style != ParticleStyle::smoke) return;
@@ -252,7 +252,7 @@ void publish_smoke(World::State& s, const ParticleSystem& p, ParticleFrame& out)
 }
 
 /// Over what `out` held.
-void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
+void make_particles(WorldState& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
   out.clear();
   for (uint32_t i = 0; i < s.particles.size(); ++i) {
     if (!s.particle_ids.alive(i)) continue;
@@ -283,7 +283,7 @@ void make_particles(World::State& s, std::vector<std::shared_ptr<const ParticleF
 }
 
 /// Over what `out` held.
-void make_fluid_forces(const World::State& s, std::vector<FluidForceFrame>& out) {
+void make_fluid_forces(const WorldState& s, std::vector<FluidForceFrame>& out) {
   out.clear();
   for (const FluidWorkspace::OnBody& on : s.workspace.fluids.on_bodies)
     if (s.bodies.ids.alive(on.slot)) out.push_back({s.bodies.ids.at(on.slot), on.force, on.torque});
@@ -304,14 +304,14 @@ std::shared_ptr<Frame> blank_frame(FramePool& pool) {
 }
 
 /// Publishing, which began at `start`, is the last stage: nobody could tell it later.
-void note_stages(World::State& s, std::chrono::steady_clock::time_point start) {
+void note_stages(WorldState& s, std::chrono::steady_clock::time_point start) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   s.stats.stages = s.profiler.stages();
   s.stats.stages.add("publish", spent.count());
 }
 
 /// Builds the frame of the present state, sharing with the last one what did not change.
-void publish_frame(World::State& s) {
+void publish_frame(WorldState& s) {
   const auto start = std::chrono::steady_clock::now();
   auto frame = blank_frame(s.frames.pool);
   frame->tick = s.tick;
@@ -348,7 +348,7 @@ void publish_frame(World::State& s) {
 }
 
 /// The last frame again, of the present tick; for a state that is still.
-void repeat_frame(World::State& s) {
+void repeat_frame(WorldState& s) {
   const auto start = std::chrono::steady_clock::now();
   auto frame = blank_frame(s.frames.pool);
   *frame = *s.frames.last;
@@ -361,7 +361,7 @@ void repeat_frame(World::State& s) {
 
 }  // namespace
 
-const std::shared_ptr<const Frame>& present_frame(World::State& s) {
+const std::shared_ptr<const Frame>& present_frame(WorldState& s) {
   const std::lock_guard lock(s.frames.mutex);
   if (s.frames.due == FrameState::Due::make) publish_frame(s);
   if (s.frames.due == FrameState::Due::repeat) repeat_frame(s);

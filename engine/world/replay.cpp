@@ -1,6 +1,7 @@
 #include "engine/world/replay.hpp"
 
 #include "engine/world/shape_store.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <map>

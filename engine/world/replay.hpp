@@ -1,5 +1,8 @@
 #pragma once
-#include "engine/world/world.hpp"
+#include "engine/core/bytes.hpp"
+#include "engine/core/result.hpp"
+#include "engine/world/command.hpp"
+#include "engine/world/world_def.hpp"
 
 #include <memory>
 #include <span>

@@ -43,7 +43,7 @@ constexpr uint32_t ledger_version = 5;
 /// for particles and emitters that there are.
 constexpr uint32_t queue_version = 16;
 
-void write_geometry(ByteWriter& out, const World::State& s, bool with_geometry) {
+void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
   const auto collect = [&](const BodyDef& def) {
     for (const BodyShapeDef& shape : def.shapes)
@@ -84,7 +84,7 @@ void read_geometry(ByteReader& in, ShapeStore& shapes) {
   in.end_section();
 }
 
-void write_bodies(ByteWriter& out, const World::State& s) {
+void write_bodies(ByteWriter& out, const WorldState& s) {
   out.begin_section("bodies", bodies_version);
   s.bodies.ids.save(out);
   for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i) {
@@ -103,7 +103,7 @@ void write_bodies(ByteWriter& out, const World::State& s) {
   out.end_section();
 }
 
-Status read_bodies(ByteReader& in, World::State& s) {
+Status read_bodies(ByteReader& in, WorldState& s) {
   if (in.begin_section("bodies") != bodies_version) {
     in.fail();
     return {};
@@ -136,7 +136,7 @@ Status read_bodies(ByteReader& in, World::State& s) {
   return {};
 }
 
-void write_forces(ByteWriter& out, const World::State& s) {
+void write_forces(ByteWriter& out, const WorldState& s) {
   out.begin_section("forces", version);
   s.force_ids.save(out);
   for (uint32_t i = 0; i < s.force_ids.capacity(); ++i)
@@ -144,7 +144,7 @@ void write_forces(ByteWriter& out, const World::State& s) {
   out.end_section();
 }
 
-void read_forces(ByteReader& in, World::State& s) {
+void read_forces(ByteReader& in, WorldState& s) {
   in.begin_section("forces");
   s.force_ids.load(in);
   s.forces.assign(in.ok() ? s.force_ids.capacity() : 0, std::nullopt);
@@ -153,7 +153,7 @@ void read_forces(ByteReader& in, World::State& s) {
   in.end_section();
 }
 
-void write_particles(ByteWriter& out, const World::State& s) {
+void write_particles(ByteWriter& out, const WorldState& s) {
   out.begin_section("particles", particles_version);
   s.particle_ids.save(out);
   for (uint32_t i = 0; i < s.particle_ids.capacity(); ++i)
@@ -161,7 +161,7 @@ void write_particles(ByteWriter& out, const World::State& s) {
   out.end_section();
 }
 
-void read_particles(ByteReader& in, World::State& s) {
+void read_particles(ByteReader& in, WorldState& s) {
   if (in.begin_section("particles") != particles_version) return in.fail();
   s.particle_ids.load(in);
   s.particles.assign(in.ok() ? s.particle_ids.capacity() : 0, {});
@@ -170,7 +170,7 @@ void read_particles(ByteReader& in, World::State& s) {
   in.end_section();
 }
 
-void write_emitters(ByteWriter& out, const World::State& s) {
+void write_emitters(ByteWriter& out, const WorldState& s) {
   out.begin_section("emitters", emitters_version);
   s.emitters.ids.save(out);
   for (uint32_t i = 0; i < s.emitters.ids.capacity(); ++i) {
@@ -194,7 +194,7 @@ void write_emitters(ByteWriter& out, const World::State& s) {
   out.end_section();
 }
 
-void read_emitter(ByteReader& in, World::State& s, Emitter& e) {
+void read_emitter(ByteReader& in, WorldState& s, Emitter& e) {
   const EmitterDef def = read_emitter_def(in, *s.shapes);
   if (!in.ok() || !validate(def)) return in.fail();
   auto made = make_emitter(def, in.get<double>());
@@ -212,7 +212,7 @@ void read_emitter(ByteReader& in, World::State& s, Emitter& e) {
   }
 }
 
-void read_emitters(ByteReader& in, World::State& s) {
+void read_emitters(ByteReader& in, WorldState& s) {
   if (in.begin_section("emitters") != emitters_version) return in.fail();
   s.emitters.ids.load(in);
   s.emitters.list.assign(in.ok() ? s.emitters.ids.capacity() : 0, {});
@@ -228,7 +228,7 @@ void read_emitters(ByteReader& in, World::State& s) {
   in.end_section();
 }
 
-bool read_particle_contacts(ByteReader& in, World::State& s) {
+bool read_particle_contacts(ByteReader& in, WorldState& s) {
   if (in.begin_section("particle contacts") != particle_contacts_version) return false;
   s.touching_particles = load_particle_names(in);
   if (!s.particle_contacts.load(in, ~uint32_t{0})) return false;
@@ -239,7 +239,7 @@ bool read_particle_contacts(ByteReader& in, World::State& s) {
   return true;
 }
 
-void write_queue(ByteWriter& out, const World::State& s) {
+void write_queue(ByteWriter& out, const WorldState& s) {
   out.begin_section("queue", queue_version);
   s.reserved.bodies.save(out);
   s.reserved.forces.save(out);
@@ -253,7 +253,7 @@ void write_queue(ByteWriter& out, const World::State& s) {
   out.end_section();
 }
 
-Status read_queue(ByteReader& in, World::State& s) {
+Status read_queue(ByteReader& in, WorldState& s) {
   if (in.begin_section("queue") != queue_version) {
     in.fail();
     return {};
@@ -277,7 +277,7 @@ Status read_queue(ByteReader& in, World::State& s) {
 
 }  // namespace
 
-Bytes save_state(const World::State& s, bool with_geometry) {
+Bytes save_state(const WorldState& s, bool with_geometry) {
   ByteWriter out;
   write_geometry(out, s, with_geometry);
   out.begin_section("world", version);
@@ -317,12 +317,12 @@ Bytes save_state(const World::State& s, bool with_geometry) {
   return out.take();
 }
 
-Result<uint64_t> load_state(World::State& target, std::span<const std::byte> snapshot) {
+Result<uint64_t> load_state(WorldState& target, std::span<const std::byte> snapshot) {
   const Error damaged{ErrorCode::parse,
                       "the snapshot is damaged, or names geometry that is not there",
                       "snapshot",
                       {}};
-  World::State s;
+  WorldState s;
   s.shapes = target.shapes;
   ByteReader in(snapshot);
   read_geometry(in, *s.shapes);

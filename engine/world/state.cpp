@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-ForceContext World::State::force_context() {
+ForceContext WorldState::force_context() {
   const double h = settings.tick.tick();
   ForceContext context{bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
   context.particle_slots = blocks.first_slots();
@@ -19,7 +19,7 @@ ForceContext World::State::force_context() {
   return context;
 }
 
-void set_threads(World::State& state, int threads) {
+void set_threads(WorldState& state, int threads) {
   if (threads <= 0) threads = std::max(1, int(std::thread::hardware_concurrency()));
   state.crew.reset();
   state.crew = std::make_unique<Crew>(threads);
@@ -36,7 +36,7 @@ void FrameState::forget_bodies() {
   resting_revision = ~uint64_t{0};
 }
 
-void World::State::mark_active() {
+void WorldState::mark_active() {
   if (roster.everything()) {
     frames.unsure = true;
     return;
@@ -46,7 +46,7 @@ void World::State::mark_active() {
     for (const uint32_t slot : slots) frames.mark_changed(slot);
 }
 
-void World::State::forget_bodies() {
+void WorldState::forget_bodies() {
   roster.forget();
   frames.forget_bodies();
 }
@@ -123,7 +123,7 @@ Status validate(const WorldSettings& settings) {
   return {};
 }
 
-Status choose_algorithms(World::State& state, const WorldSettings& settings) {
+Status choose_algorithms(WorldState& state, const WorldSettings& settings) {
   const auto entry = find_named(all_broad_phases(), settings.broad_phase, "broad phase");
   if (!entry) return entry.error();
   if (!state.methods.broad_phase || settings.broad_phase != state.settings.broad_phase) {

@@ -1,7 +1,9 @@
 #pragma once
 #include "engine/collision/broad_phase.hpp"
 #include "engine/core/crew.hpp"
+#include "engine/core/log.hpp"
 #include "engine/core/profiler.hpp"
+#include "engine/core/result.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
@@ -12,17 +14,19 @@
 #include "engine/dynamics/realtime/continuous.hpp"
 #include "engine/dynamics/realtime/realtime_solver.hpp"
 #include "engine/dynamics/realtime/sleeping.hpp"
+#include "engine/world/command.hpp"
 #include "engine/world/emission_scratch.hpp"
 #include "engine/world/fluid_workspace.hpp"
+#include "engine/world/frame.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/queries/query_cache.hpp"
 #include "engine/world/sensors/sense.hpp"
+#include "engine/world/settings.hpp"
 #include "engine/world/shape_store.hpp"
 #include "engine/world/tick_backup.hpp"
-#include "engine/world/world.hpp"
 
 #include <memory>
 #include <mutex>
@@ -30,6 +34,8 @@
 #include <vector>
 
 namespace tumble {
+
+struct TickWatch;
 
 /// A live force and its definition; dead slots are empty.
 using ForceSlots = std::vector<std::optional<ForceDef>>;
@@ -150,7 +156,7 @@ struct Told {
 };
 
 /// All that a World is. The first group is saved in snapshots; the rest is derived or scratch.
-struct World::State {
+struct WorldState {
   // -- saved
   WorldSettings settings;
   uint64_t tick = 0;
@@ -220,39 +226,39 @@ struct World::State {
 };
 
 /// Gives the world its own threads; 0: one thread per core.
-void set_threads(World::State& state, int threads);
+void set_threads(WorldState& state, int threads);
 
 /// Carries out one validated command.
-Status apply_command(World::State& state, const Command& command);
+Status apply_command(WorldState& state, const Command& command);
 
 /// Makes the algorithm objects that the settings name.
-Status choose_algorithms(World::State& state, const WorldSettings& settings);
+Status choose_algorithms(WorldState& state, const WorldSettings& settings);
 Status validate(const WorldSettings& settings);
 
 /// The frame of the present state, which is made now unless it was before.
-const std::shared_ptr<const Frame>& present_frame(World::State& state);
+const std::shared_ptr<const Frame>& present_frame(WorldState& state);
 
 /// Energies, momenta and counts of the present state.
-void measure(World::State& state);
+void measure(WorldState& state);
 /// After the books of a tick: an error where energy or momentum is not finite, or where there is a
 /// thousand times as much energy as came in by anything that the books know; names what has most.
-Status check_energy(const World::State& state);
+Status check_energy(const WorldState& state);
 /// What the books compare, as measured last.
-LedgerState measured(const World::State& state);
+LedgerState measured(const WorldState& state);
 /// The same of some particles alone: `systems` by slot.
-LedgerState measure_particles(World::State& state, std::vector<ParticleSystem>& systems);
+LedgerState measure_particles(WorldState& state, std::vector<ParticleSystem>& systems);
 
 /// A way to compute a tick.
 struct StepperEntry {
   std::string_view name;
-  Status (*step)(World::State& state);
+  Status (*step)(WorldState& state);
   bool gathers = false;  ///< its loops are short: the threads stay together for the whole tick
 };
 /// "event", "realtime".
 const std::vector<StepperEntry>& all_steppers();
 
-Bytes save_state(const World::State& state, bool with_geometry);
+Bytes save_state(const WorldState& state, bool with_geometry);
 /// Replaces the state or leaves it alone; gives the length of the replay log when it was saved.
-Result<uint64_t> load_state(World::State& state, std::span<const std::byte> snapshot);
+Result<uint64_t> load_state(WorldState& state, std::span<const std::byte> snapshot);
 
 }  // namespace tumble

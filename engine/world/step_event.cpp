@@ -24,7 +24,7 @@ namespace {
 constexpr double most_depth = 1e-5;
 
 /// Nothing sleeps under this stepper.
-void wake_sleepers(World::State& s) {
+void wake_sleepers(WorldState& s) {
   for (RigidBody& b : s.bodies.bodies)
     if (b.asleep) wake(b);
 }
@@ -34,7 +34,7 @@ LedgerEntry entry_of(const CauseEffect& e) {
 }
 
 /// What the causes did in the tick, from the quadratures of the groups and their impacts.
-void book_tick(World::State& s) {
+void book_tick(WorldState& s) {
   static constexpr LedgerLine lines[contact_causes] = {
       LedgerLine::restitution, LedgerLine::friction,   LedgerLine::kinematic, LedgerLine::joints,
       LedgerLine::motors,      LedgerLine::projection, LedgerLine::offset};
@@ -58,13 +58,13 @@ void book_tick(World::State& s) {
   }
 }
 
-bool any_fast(const World::State& s) {
+bool any_fast(const WorldState& s) {
   return std::any_of(s.particles.begin(), s.particles.end(),
                      [](const ParticleSystem& p) { return p.fast || p.fluid; });
 }
 
 /// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
-bool holds_fast(const World::State& s, const ForceDef& spring) {
+bool holds_fast(const WorldState& s, const ForceDef& spring) {
   const Anchors ends = anchors(spring);
   return std::any_of(ends.begin(), ends.end(), [&s](const Anchor& end) {
     return end.kind == Anchor::Kind::particle && s.particle_ids.contains(end.particles) &&
@@ -73,7 +73,7 @@ bool holds_fast(const World::State& s, const ForceDef& spring) {
 }
 
 /// Which force does what to which particle that is no block, for the books.
-void share_forces_on_particles(World::State& s) {
+void share_forces_on_particles(WorldState& s) {
   s.workspace.books.shares.clear();
   if (!any_fast(s)) return;
   for (RigidBody& b : s.bodies.bodies) {
@@ -86,7 +86,7 @@ void share_forces_on_particles(World::State& s) {
 }
 
 /// From here on the bodies end with the particles that move like them.
-Status append_particles(World::State& s) {
+Status append_particles(WorldState& s) {
   if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
                                     s.bodies.bodies);
       !made)
@@ -96,14 +96,14 @@ Status append_particles(World::State& s) {
   return {};
 }
 
-void withdraw_particles(World::State& s) {
+void withdraw_particles(WorldState& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   s.blocks.store_contacts(s.event.contacts, s.event.particles);
   s.blocks.remove(s.bodies.bodies);
   s.event.time_stepped.resize(s.bodies.bodies.size());
 }
 
-Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time_stepping) {
+Status move_bodies(WorldState& s, const TickForces& forces, TimeStepping& time_stepping) {
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
   context.settings = s.settings.event;
@@ -128,7 +128,7 @@ Status move_bodies(World::State& s, const TickForces& forces, TimeStepping& time
 }
 
 /// Contacts where frames, queries and the other stepper look for them.
-void publish_contacts(World::State& s, std::span<const Contact> time_stepped) {
+void publish_contacts(WorldState& s, std::span<const Contact> time_stepped) {
   std::vector<Contact> contacts = contact_list(s.event.contacts, s.bodies.bodies);
   contacts.insert(contacts.end(), time_stepped.begin(), time_stepped.end());
   std::ranges::stable_sort(contacts, {}, &Contact::key);
@@ -144,13 +144,13 @@ void publish_contacts(World::State& s, std::span<const Contact> time_stepped) {
   s.contacts.assign(std::move(contacts));
 }
 
-void warn_once(const World::State& s, uint64_t count, bool& told, const std::string& message) {
+void warn_once(const WorldState& s, uint64_t count, bool& told, const std::string& message) {
   if (count == 0 || told) return;
   told = true;
   s.warn(message);
 }
 
-void count_work(World::State& s) {
+void count_work(WorldState& s) {
   const EventStats& done = s.event.stats;
   s.stats.bounds_tested = s.methods.broad_phase->stats().tested;
   s.stats.pairs_found = s.methods.broad_phase->stats().found;
@@ -177,7 +177,7 @@ void count_work(World::State& s) {
             "slip that no force holds in balance was stopped by an impulse (this is said once)");
 }
 
-Status run_event_stages(World::State& s) {
+Status run_event_stages(WorldState& s) {
   wake_sleepers(s);
   std::optional<TickForces> forces;
   std::optional<WorldTimeStepping> time_stepping;
@@ -212,7 +212,7 @@ Status run_event_stages(World::State& s) {
 
 }  // namespace
 
-Status step_event(World::State& state) {
+Status step_event(WorldState& state) {
   state.roster.forget();
   TickBackup& backup = state.before.backup;
   backup.take(state);

@@ -4,6 +4,6 @@
 namespace tumble {
 
 /// One tick of the `event` stepper: the list of its stages.
-Status step_event(World::State& state);
+Status step_event(WorldState& state);
 
 }  // namespace tumble

@@ -24,7 +24,7 @@ namespace tumble {
 namespace {
 
 /// Forces of the tick before are gone: those on the active, and what single forces gave to others.
-void clear_forces(World::State& s) {
+void clear_forces(WorldState& s) {
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const auto clear = [&bodies](uint32_t slot) {
     bodies[slot].force.setZero();
@@ -43,7 +43,7 @@ void clear_forces(World::State& s) {
 }
 
 /// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
-void find_supported(World::State& s) {
+void find_supported(WorldState& s) {
   s.workspace.supported.clear();
   s.workspace.held_particles.clear();
   const bool springs =
@@ -59,7 +59,7 @@ void find_supported(World::State& s) {
       if (slot < s.workspace.supported.size()) s.workspace.supported[slot] = 1;
 }
 
-void sum_forces(World::State& s) {
+void sum_forces(WorldState& s) {
   clear_forces(s);
   find_supported(s);
   ForceContext context = s.force_context();
@@ -68,7 +68,7 @@ void sum_forces(World::State& s) {
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
-Status append_colliding(World::State& s) {
+Status append_colliding(WorldState& s) {
   const auto which = ParticleBlocks::Which::colliding;
   if (Status made = s.blocks.append(which, s.particle_ids, s.particles, s.bodies.bodies); !made)
     return made;
@@ -86,7 +86,7 @@ Status append_colliding(World::State& s) {
 }
 
 /// Between ticks contacts of bodies only are where all look for contacts.
-void withdraw_colliding(World::State& s) {
+void withdraw_colliding(WorldState& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   if (s.blocks.empty()) {
     s.touching_particles.clear();
@@ -103,12 +103,12 @@ void withdraw_colliding(World::State& s) {
 }
 
 /// Something other than contacts wakes a body at the beginning of a tick.
-void rouse(World::State& s, RigidBody& body) {
+void rouse(WorldState& s, RigidBody& body) {
   if (body.asleep) s.roster.forget();
   wake(body);
 }
 
-void wake_tied_to_particles(World::State& s, const SpringMesh& mesh) {
+void wake_tied_to_particles(WorldState& s, const SpringMesh& mesh) {
   const auto of = [](Anchor::Kind kind) {
     return [kind](const Anchor& a) { return a.kind == kind; };
   };
@@ -119,7 +119,7 @@ void wake_tied_to_particles(World::State& s, const SpringMesh& mesh) {
 }
 
 /// Particles never sleep, so neither does a body that a spring ties to one.
-void wake_tied_to_particles(World::State& s) {
+void wake_tied_to_particles(WorldState& s) {
   for (const auto& force : s.forces) {
     if (const auto* mesh = force ? std::get_if<SpringMeshDef>(&*force) : nullptr)
       wake_tied_to_particles(s, *mesh->mesh);
@@ -132,7 +132,7 @@ void wake_tied_to_particles(World::State& s) {
 }
 
 /// What rests in a field that changes by itself may not rest for long.
-void wake_in_changing_fields(World::State& s) {
+void wake_in_changing_fields(WorldState& s) {
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
     if (force && varies_in_time(*force))
@@ -143,7 +143,7 @@ void wake_in_changing_fields(World::State& s) {
 
 /// Whether the tick that was computed moved nothing, and the next would not: all that could move
 /// sleeps, and nothing will wake it.
-bool moved_nothing(const World::State& s) {
+bool moved_nothing(const WorldState& s) {
   if (!s.islands.islands.empty() || emission_to_come(s) || has_courses(s)) return false;
   for (const ParticleSystem& p : s.particles)
     if (p.size() > 0) return false;
@@ -157,7 +157,7 @@ bool moved_nothing(const World::State& s) {
 /// Bodies that were made asleep look around once. Without contacts they would wake only when those
 /// that carry them come awake and have been looked at, a tick later, and by then may have fallen
 /// away from below.
-void look_around(World::State& s) {
+void look_around(WorldState& s) {
   if (!s.laid_asleep) return;
   std::vector<bool> knows(s.bodies.bodies.size(), false);
   s.contacts.for_each(
@@ -169,7 +169,7 @@ void look_around(World::State& s) {
   s.workspace.proxies.news.everything(s.workspace.proxies.proxies);
 }
 
-void book_corrections(World::State& s, LedgerLine line) {
+void book_corrections(WorldState& s, LedgerLine line) {
   const ScopedStage stage(s.profiler, "books");
   s.workspace.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
 }
@@ -177,7 +177,7 @@ void book_corrections(World::State& s, LedgerLine line) {
 /// Books between the stages of the bodies, and what moves besides them.
 class BetweenStages final : public TickListener {
  public:
-  explicit BetweenStages(World::State& state) : s_(state) {}
+  explicit BetweenStages(WorldState& state) : s_(state) {}
   void bounds_known() override { look_around(s_); }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
@@ -205,11 +205,11 @@ class BetweenStages final : public TickListener {
   }
 
  private:
-  World::State& s_;
+  WorldState& s_;
 };
 
 /// The stages of the bodies, from bounds to sleep.
-Status move_bodies(World::State& s) {
+Status move_bodies(WorldState& s) {
   BetweenStages between(s);
   RealtimeTick tick = realtime_tick(
       s, {s.settings.realtime, body_links(s), s.workspace.apart, s.contacts, between});
@@ -231,7 +231,7 @@ Status move_bodies(World::State& s) {
   return named ? done.error() : named.error();
 }
 
-Status run_stages(World::State& s) {
+Status run_stages(WorldState& s) {
   {
     const ScopedStage stage(s.profiler, "forces");
     wake_tied_to_particles(s);
@@ -252,7 +252,7 @@ Status run_stages(World::State& s) {
 
 }  // namespace
 
-Status step_realtime(World::State& state) {
+Status step_realtime(WorldState& state) {
   state.roster.refresh(state.bodies.bodies, state.crew.get());
   TickBackup& backup = state.before.backup;
   backup.take(state);

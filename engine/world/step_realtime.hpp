@@ -4,6 +4,6 @@
 namespace tumble {
 
 /// One tick of the `realtime` stepper: the list of its stages.
-Status step_realtime(World::State& state);
+Status step_realtime(WorldState& state);
 
 }  // namespace tumble

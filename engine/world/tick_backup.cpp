@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-void TickBackup::take(World::State& s) {
+void TickBackup::take(WorldState& s) {
   const ScopedStage stage(s.profiler, "backup");
   joints_ = s.joints.joints;
   couplings_ = s.joints.couplings;
@@ -43,7 +43,7 @@ void TickBackup::take(World::State& s) {
     keep(slots.size(), [slots](size_t k) { return slots[k]; });
 }
 
-void TickBackup::restore(World::State& s) {
+void TickBackup::restore(WorldState& s) {
   s.roster.forget();
   s.contacts.go_back();
   s.joints.joints.swap(joints_);

@@ -1,19 +1,21 @@
 #pragma once
+#include "engine/core/memory_use.hpp"
 #include "engine/dynamics/event/event_stepper.hpp"
 #include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/particles/emitter.hpp"
-#include "engine/world/world.hpp"
 
 #include <vector>
 
 namespace tumble {
 
+struct WorldState;
+
 /// What a failed tick must give back: everything that the stages of a stepper change. Contacts
 /// remember by themselves what they were when the tick began. Its memory is kept from tick to tick.
 class TickBackup {
  public:
-  void take(World::State& state);
-  void restore(World::State& state);
+  void take(WorldState& state);
+  void restore(WorldState& state);
 
   std::vector<Pose> poses() const;  ///< by slot
   const Pose& pose(uint32_t slot) const { return bodies_[slot].pose; }

@@ -27,7 +27,7 @@ void link_mesh(const SpringMesh& mesh, const ForceContext& context, std::vector<
 }
 
 /// Pairs of bodies that springs tie together.
-void add_spring_links(World::State& s, std::vector<BodyLink>& links) {
+void add_spring_links(WorldState& s, std::vector<BodyLink>& links) {
   for (const auto& force : s.forces) {
     const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
     if (!spring || spring->a.kind != Anchor::Kind::body || spring->b.kind != Anchor::Kind::body)
@@ -42,7 +42,7 @@ void add_spring_links(World::State& s, std::vector<BodyLink>& links) {
 }
 
 /// Blocks of particles between which a potential acts move together: each with the next.
-void link_paired(const World::State& s, const ForceDef& force, std::vector<BodyLink>& links) {
+void link_paired(const WorldState& s, const ForceDef& force, std::vector<BodyLink>& links) {
   const auto* systems = paired_systems(force);
   if (!systems) return;
   uint32_t last = ParticleBlocks::no_slot;
@@ -67,14 +67,14 @@ bool finite(const RigidBody& b) {
 
 }  // namespace
 
-const std::vector<BodyLink>& body_links(World::State& s) {
+const std::vector<BodyLink>& body_links(WorldState& s) {
   s.workspace.links.clear();
   add_spring_links(s, s.workspace.links);
   s.joints.add_links(s.workspace.links);
   return s.workspace.links;
 }
 
-std::vector<BodyLink> block_links(World::State& s) {
+std::vector<BodyLink> block_links(WorldState& s) {
   std::vector<BodyLink> links;
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces) {
@@ -92,7 +92,7 @@ std::vector<BodyLink> block_links(World::State& s) {
   return links;
 }
 
-std::string body_label(const World::State& s, uint32_t slot) {
+std::string body_label(const WorldState& s, uint32_t slot) {
   if (s.blocks.holds(slot)) {
     const ParticleName name = s.blocks.name(slot);
     return fmt::format("particle {} of '{}'", name.particle, s.particles[name.system.index].name);
@@ -100,7 +100,7 @@ std::string body_label(const World::State& s, uint32_t slot) {
   return fmt::format("body '{}' (slot {})", s.body_defs[slot] ? s.body_defs[slot]->name : "", slot);
 }
 
-Status check_finite(const World::State& s) {
+Status check_finite(const WorldState& s) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
   const bool some = !s.roster.everything();
   const std::span<const uint32_t> active = s.roster.active();
@@ -128,7 +128,7 @@ Status check_finite(const World::State& s) {
   return {};
 }
 
-RealtimeTick realtime_tick(World::State& s, const TickChoice& choice) {
+RealtimeTick realtime_tick(WorldState& s, const TickChoice& choice) {
   return {.settings = choice.settings,
           .gravity = s.settings.gravity,
           .h = s.settings.tick.tick(),
@@ -155,21 +155,21 @@ RealtimeTick realtime_tick(World::State& s, const TickChoice& choice) {
           .listener = choice.listener};
 }
 
-Status outcome_of_tick(const World::State& s, Status status) {
+Status outcome_of_tick(const WorldState& s, Status status) {
   if (!stop_requested()) return status;
   Error stopped = stopped_error();
   stopped.place = fmt::format("tick {}", s.tick + 1);
   return stopped;
 }
 
-void integrate_particles(World::State& s) {
+void integrate_particles(WorldState& s) {
   const ScopedStage stage(s.profiler, "particles");
   for (size_t i = 0; i < s.particles.size(); ++i)
     if (!s.blocks.has_blocks(i) && !s.particles[i].fluid && !s.particles[i].grains)
       integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
 }
 
-void finish_particles(World::State& s) {
+void finish_particles(WorldState& s) {
   for (ParticleSystem& p : s.particles) {
     if (p.box.any())
       for (Vec3& x : p.x) x = p.box.wrapped(x);
@@ -177,7 +177,7 @@ void finish_particles(World::State& s) {
   }
 }
 
-Status detect_particle_contacts(World::State& s, const TickBackup& start) {
+Status detect_particle_contacts(WorldState& s, const TickBackup& start) {
   s.particle_detection.clear();
   if (!ParticleDetection::asked_for(s.particles)) return {};
   const ScopedStage stage(s.profiler, "particle contacts");

@@ -7,12 +7,12 @@ class TickListener;
 struct RealtimeTick;
 
 /// What ties bodies together besides contacts: springs, then joints. Until the next call.
-const std::vector<BodyLink>& body_links(World::State& state);
+const std::vector<BodyLink>& body_links(WorldState& state);
 /// The same with springs on particles that are blocks now.
-std::vector<BodyLink> block_links(World::State& state);
+std::vector<BodyLink> block_links(WorldState& state);
 
 /// "body 'NAME' (slot N)"; particles that are blocks have a name too.
-std::string body_label(const World::State& state, uint32_t slot);
+std::string body_label(const WorldState& state, uint32_t slot);
 
 /// What differs between the ticks of a world that the realtime stages take.
 struct TickChoice {
@@ -23,23 +23,23 @@ struct TickChoice {
   TickListener& listener;
 };
 /// A tick by the realtime stages.
-RealtimeTick realtime_tick(World::State& state, const TickChoice& choice);
+RealtimeTick realtime_tick(WorldState& state, const TickChoice& choice);
 
 /// What a tick gives in the end: when somebody asked it to stop, that, whatever it had found by
 /// then.
-Status outcome_of_tick(const World::State& state, Status status);
+Status outcome_of_tick(const WorldState& state, Status status);
 
 /// Names the first body or particle whose state is not finite.
-Status check_finite(const World::State& state);
+Status check_finite(const WorldState& state);
 
 /// The stage that moves particles that are no blocks by the forces on them.
-void integrate_particles(World::State& state);
+void integrate_particles(WorldState& state);
 
 /// The last that happens to particles in a tick: those that left their periodic box come in on the
 /// other side, and what they are coloured by is noted.
-void finish_particles(World::State& state);
+void finish_particles(WorldState& state);
 
 /// Contacts of particles over the tick that has just been computed.
-Status detect_particle_contacts(World::State& state, const TickBackup& start);
+Status detect_particle_contacts(WorldState& state, const TickBackup& start);
 
 }  // namespace tumble

@@ -32,7 +32,7 @@ std::vector<uint32_t> held_slots(const ForceDef& def, const ForceContext& contex
 
 }  // namespace
 
-TickForces::TickForces(World::State& s, bool drives)
+TickForces::TickForces(WorldState& s, bool drives)
     : state_(s), anchored_(s.bodies.bodies.size()), driven_(s.bodies.bodies.size()) {
   if (drives) assign_drives();
   for (RigidBody& b : s.bodies.bodies) {
@@ -78,7 +78,7 @@ void TickForces::assign_drives() {
 }
 
 void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
-  World::State& s = state_;
+  WorldState& s = state_;
   charge_work(bodies.size(), 150 * fields_.size() + 20);
   for (const uint32_t slot : bodies) {
     RigidBody& b = s.bodies.bodies[slot];
@@ -104,7 +104,7 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
 
 /// A force that ties something to particles that are no blocks: its share was found before.
 void TickForces::hold(uint32_t force) {
-  World::State& s = state_;
+  WorldState& s = state_;
   if (force >= s.workspace.books.shares.size()) return;
   for (const ForceShare::OnBody& on : s.workspace.books.shares[force].bodies) {
     RigidBody& b = s.bodies.bodies[on.slot];
@@ -119,7 +119,7 @@ void TickForces::hold(uint32_t force) {
 
 /// The share of fluids stands behind those of the forces.
 void TickForces::hold_fluids() {
-  World::State& s = state_;
+  WorldState& s = state_;
   const auto fluids = uint32_t(s.forces.size());
   if (s.workspace.books.shares.size() <= fluids) return;
   for (const ForceShare::OnBody& on : s.workspace.books.shares[fluids].bodies) {
@@ -154,7 +154,7 @@ void TickForces::clear_sums(std::span<const uint32_t> bodies) const {
 }
 
 void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const {
-  World::State& s = state_;
+  WorldState& s = state_;
   ForceContext context = s.force_context();
   context.only = bodies;
   out.assign(s.forces.size() + 1, {});
@@ -271,7 +271,7 @@ double lost_power(const ForceDef& def, double work, const ForceContext& context)
 
 CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
                                std::span<const uint32_t> bodies) const {
-  World::State& s = state_;
+  WorldState& s = state_;
   CauseEffect sum;
   const bool fluids = force == s.forces.size();
   if (fluids || holds_particles(*s.forces[force], context)) {
@@ -300,7 +300,7 @@ CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
 
 void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<const uint32_t> causes,
                        std::span<CauseEffect> out) const {
-  World::State& s = state_;
+  WorldState& s = state_;
   ForceContext context = s.force_context();
   context.momentary = true;
   context.t += t;

@@ -12,7 +12,7 @@ class TickForces final : public ForceRates {
   /// Sets the forces on all particles; the blocks must be there, and the shares of forces that hold
   /// particles without blocks.
   /// Without `drives` what acts along coordinates of joints is left out.
-  explicit TickForces(World::State& state, bool drives = true);
+  explicit TickForces(WorldState& state, bool drives = true);
 
   /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
   /// bodies that no spring ties to each other may be asked for at the same time.
@@ -47,7 +47,7 @@ class TickForces final : public ForceRates {
     Vec3 elastic_push, elastic_turn;  ///< of them what a potential explains
   };
 
-  World::State& state_;
+  WorldState& state_;
   std::vector<uint32_t> fields_;                 ///< slots of forces on everything
   std::vector<std::vector<uint32_t>> anchored_;  ///< by body slot: forces that it answers for
   std::vector<std::vector<uint32_t>> driven_;    ///< by body slot: joints that it answers for

@@ -21,7 +21,7 @@ void hold_others(std::span<const RigidBody> bodies, std::span<const uint32_t> mo
 /// Books between the stages.
 class TimeSteppingBooks final : public TickListener {
  public:
-  TimeSteppingBooks(World::State& state, const ContactSet& contacts, RealtimeBooks& books)
+  TimeSteppingBooks(WorldState& state, const ContactSet& contacts, RealtimeBooks& books)
       : s_(state), contacts_(contacts), books_(books) {}
   void islands_known() override {
     books_.joints = {s_.joints.joints, {}, s_.joints.energies(s_.bodies.bodies).total()};
@@ -38,7 +38,7 @@ class TimeSteppingBooks final : public TickListener {
   }
 
  private:
-  World::State& s_;
+  WorldState& s_;
   const ContactSet& contacts_;
   RealtimeBooks& books_;
 };
@@ -50,7 +50,7 @@ constexpr int most_parts = 8, most_substeps = 64;
 
 /// Those of the world's realtime settings, solved as well as they can be: contacts as stiff as the
 /// sub-steps allow. Nothing sleeps.
-RealtimeSettings settings_of(const World::State& s) {
+RealtimeSettings settings_of(const WorldState& s) {
   RealtimeSettings settings = s.settings.realtime;
   settings.precise = true;
   settings.max_substeps = std::max(settings.max_substeps, most_substeps);
@@ -62,12 +62,12 @@ RealtimeSettings settings_of(const World::State& s) {
 
 }  // namespace
 
-WorldTimeStepping::WorldTimeStepping(World::State& state, const TickForces& forces)
+WorldTimeStepping::WorldTimeStepping(WorldState& state, const TickForces& forces)
     : state_(state), forces_(forces), settings_(settings_of(state)) {}
 
 /// What an earlier call did has not happened; from here on the force sums are those of the tick.
 void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
-  World::State& s = state_;
+  WorldState& s = state_;
   if (!ledger_) {
     ledger_ = s.ledger;
     joints_ = s.joints.joints;
@@ -91,7 +91,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
 }
 
 Status WorldTimeStepping::run() {
-  World::State& s = state_;
+  WorldState& s = state_;
   TimeSteppingBooks books(s, contacts_, books_);
   RealtimeTick tick = realtime_tick(s, {settings_, links_, apart_, contacts_, books});
   tick.close = true;

@@ -10,6 +10,8 @@
 
 namespace tumble {
 
+struct WorldState;
+
 /// How groups in which events crowd finish a tick of the event stepper: by the stages of the
 /// realtime tick, which step over all events of a sub-step at once. Contacts and friction are
 /// implicit, as inequalities between impulses and the velocities at the end of the sub-step, and
@@ -19,7 +21,7 @@ namespace tumble {
 class WorldTimeStepping final : public TimeStepping {
  public:
   /// For one tick, at whose start the bodies are; blocks of particles are among them.
-  WorldTimeStepping(World::State& state, const TickForces& forces);
+  WorldTimeStepping(WorldState& state, const TickForces& forces);
 
   Status advance(std::span<const uint32_t> bodies) override;
   /// Of the bodies that were moved, in the form in which worlds keep contacts.
@@ -29,7 +31,7 @@ class WorldTimeStepping final : public TimeStepping {
   void start_again(std::span<const uint32_t> bodies);
   Status run();
 
-  World::State& state_;
+  WorldState& state_;
   const TickForces& forces_;
   RealtimeSettings settings_;
   PairFilter apart_;

@@ -11,13 +11,18 @@
 
 #include <algorithm>
 
+void std::default_delete<tumble::World>::operator()(tumble::World* world) const noexcept {
+  delete world;
+}
+
 namespace tumble {
-World::World(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+World::World(std::unique_ptr<WorldState> state) : state_(std::move(state)) {}
 World::~World() = default;
 
 Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<ShapeStore> shapes) {
   if (Status s = validate(def.settings); !s) return s.error();
-  auto state = std::make_unique<State>();
+  auto state = std::make_unique<WorldState>();
   state->settings = def.settings;
   state->log_sink = std::move(def.log);
   state->shapes = shapes ? std::move(shapes) : std::make_shared<ShapeStore>();
@@ -30,13 +35,13 @@ Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<Shape
 namespace {
 
 /// Something else than a tick changes the state.
-void note_change(World::State& s) {
+void note_change(WorldState& s) {
   s.still = false;
   s.frames.due = FrameState::Due::make;
 }
 
 /// Afterwards the measures are up to date.
-Status apply_queue(World::State& s) {
+Status apply_queue(WorldState& s) {
   if (s.queue.empty()) return {};
   std::vector<Command> queue;
   queue.swap(s.queue);
@@ -49,7 +54,7 @@ Status apply_queue(World::State& s) {
 }
 
 /// The tick after its commands. A still tick may be repeated if `repeatable`.
-Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
+Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
   if (Status done = follow_courses(s); !done) return done;
   s.before.stats = s.stats;
   s.before.ledger = s.ledger;
@@ -91,7 +96,7 @@ Status advance(World::State& s, const StepperEntry& stepper, bool repeatable) {
 }  // namespace
 
 Status World::apply_commands() {
-  State& s = *state_;
+  WorldState& s = *state_;
   if (s.queue.empty()) return {};
   note_change(s);
   if (Status status = apply_queue(s); !status) return status;
@@ -103,7 +108,7 @@ Status World::apply_commands() {
 // -------------------------------------------------------------------------------------------
 
 Result<StepReport> World::step() {
-  State& s = *state_;
+  WorldState& s = *state_;
   if (s.stop && s.stop->requested()) return stopped_error();
   if (s.watch) {  // what an earlier tick wrote down is not of this one
     s.watch->searches = {};
@@ -170,7 +175,7 @@ std::shared_ptr<const Frame> World::frame() const {
 }
 
 uint64_t World::state_hash() const {
-  const State& s = *state_;
+  const WorldState& s = *state_;
   ByteWriter out;
   out.value(s.tick);
   for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i) {
@@ -222,7 +227,7 @@ std::optional<BodyDef> World::body_def(BodyId id) const {
 }
 
 BodyId World::find_body(std::string_view name) const {
-  const State& s = *state_;
+  const WorldState& s = *state_;
   for (uint32_t i = 0; i < s.bodies.ids.capacity(); ++i)
     if (s.bodies.ids.alive(i) && s.body_defs[i]->name == name) return s.bodies.ids.at(i);
   return {};

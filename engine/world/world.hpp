@@ -1,24 +1,17 @@
 #pragma once
 #include "engine/core/bytes.hpp"
-#include "engine/core/log.hpp"
 #include "engine/core/memory_use.hpp"
 #include "engine/core/result.hpp"
 #include "engine/dynamics/contact/contact_certificate.hpp"
 #include "engine/world/command.hpp"
 #include "engine/world/frame.hpp"
-#include "engine/world/settings.hpp"
+#include "engine/world/world_def.hpp"
 
 #include <memory>
 #include <optional>
 #include <span>
 
 namespace tumble {
-
-struct WorldDef {
-  WorldSettings settings;
-  int threads = 0;  ///< 0: one per core; never part of the state
-  LogSink log;      ///< receives warnings, within a tick: it must not ask for a frame
-};
 
 /// A moment of a world's history: its state and the commands that led to it. Kept, it can be come
 /// back to after the history took another course.
@@ -59,6 +52,7 @@ class QueryScene;
 struct GroupForceProblem;
 struct TickWatch;
 class StopFlag;
+struct WorldState;  // engine/world/state.hpp; for the files of engine/world only
 
 /// A simulated world: bodies, joints, particles, forces and the fixed tick. All change from outside
 /// is a Command, queued and applied in order at the start of the next step (or by apply_commands),
@@ -198,11 +192,9 @@ class World {
   /// Every command since the origin with the tick at which it was applied.
   const ReplayLog& replay_log() const;
 
-  struct State;  ///< engine/world/state.hpp; for the files of engine/world only
-
  private:
-  explicit World(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit World(std::unique_ptr<WorldState> state);
+  std::unique_ptr<WorldState> state_;
 };
 
 }  // namespace tumble

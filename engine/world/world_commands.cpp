@@ -66,7 +66,7 @@ Status World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& x_world)
 namespace {
 
 /// Checks a force against the ids that will exist when its command is applied.
-Status validate_reserved(const ForceDef& def, World::State& state) {
+Status validate_reserved(const ForceDef& def, WorldState& state) {
   BodySet reserved;
   reserved.ids = state.reserved.bodies;
   ForceContext context{reserved, state.reserved.particles, state.particles,
@@ -150,7 +150,7 @@ namespace {
 
 /// The newest definition of commands of these kinds that wait in the queue, or null.
 template <class Create, class Set, class Id>
-const auto* queued_def(const World::State& s, Id id) {
+const auto* queued_def(const WorldState& s, Id id) {
   const decltype(Create::def)* found = nullptr;
   for (const Command& c : s.queue) {
     if (const auto* create = std::get_if<Create>(&c); create && create->id == id)
@@ -161,7 +161,7 @@ const auto* queued_def(const World::State& s, Id id) {
 }
 
 /// Whether contacts of a system that will exist are looked for.
-bool detects(const World::State& s, ParticleSystemId id) {
+bool detects(const WorldState& s, ParticleSystemId id) {
   if (const auto* def = queued_def<CreateParticles, SetParticles>(s, id))
     return def->detect || def->fast;
   if (!s.particle_ids.contains(id)) return false;
@@ -169,14 +169,14 @@ bool detects(const World::State& s, ParticleSystemId id) {
 }
 
 /// What an emitter will be, or null.
-const EmitterDef* emitter_to_be(const World::State& s, EmitterId id) {
+const EmitterDef* emitter_to_be(const WorldState& s, EmitterId id) {
   if (const auto* def = queued_def<CreateEmitter, SetEmitter>(s, id)) return def;
   return s.emitters.ids.contains(id) ? s.emitters.list[id.index].def.get() : nullptr;
 }
 
 /// Calls f for all emitters that will exist.
 template <class F>
-void for_emitters_to_be(const World::State& s, const F& f) {
+void for_emitters_to_be(const WorldState& s, const F& f) {
   for (uint32_t i = 0; i < s.emitters.list.size(); ++i)
     if (s.emitters.ids.alive(i) && s.reserved.emitters.contains(s.emitters.ids.at(i)))
       f(s.emitters.ids.at(i), *emitter_to_be(s, s.emitters.ids.at(i)));
@@ -187,7 +187,7 @@ void for_emitters_to_be(const World::State& s, const F& f) {
 }
 
 /// Emitters whose events are collisions of a system need it to look for them.
-Status still_seen(const World::State& s, ParticleSystemId id, const ParticleSystemDef& def) {
+Status still_seen(const WorldState& s, ParticleSystemId id, const ParticleSystemDef& def) {
   if (def.detect || def.fast) return {};
   Status fine;
   for_emitters_to_be(s, [&](EmitterId, const EmitterDef& e) {
@@ -202,7 +202,7 @@ Status still_seen(const World::State& s, ParticleSystemId id, const ParticleSyst
 }
 
 /// Whether the events of an emitter lead to another one.
-bool leads_to(const World::State& s, const EmitterDef& from, EmitterId to) {
+bool leads_to(const WorldState& s, const EmitterDef& from, EmitterId to) {
   std::vector<EmitterId> seen;
   const auto see = [&](const EmitterDef& def) {
     for (const SpawnRule& r : def.events)
@@ -233,7 +233,7 @@ Status World::destroy_particles(ParticleSystemId id) {
 }
 
 Status World::set_particles(ParticleSystemId id, ParticleSystemDef def, bool keep) {
-  State& s = *state_;
+  WorldState& s = *state_;
   if (!s.reserved.particles.contains(id)) return stale("particle system");
   if (Status fine = validate(def); !fine) return fine;
   if (Status fine = still_seen(s, id, def); !fine) return fine;
@@ -249,7 +249,7 @@ Error emitter_error(const EmitterDef& def, ErrorCode code, std::string message,
 }
 
 /// Checks an emitter against what will exist when its command is applied.
-Status validate_reserved(const EmitterDef& def, World::State& s) {
+Status validate_reserved(const EmitterDef& def, WorldState& s) {
   if (Status status = validate(def); !status) return status;
   const auto missing = [&def](const char* what) {
     return emitter_error(def, ErrorCode::not_found,
@@ -284,7 +284,7 @@ Result<EmitterId> World::create_emitter(EmitterDef def) {
 }
 
 Status World::set_emitter(EmitterId id, EmitterDef def) {
-  State& s = *state_;
+  WorldState& s = *state_;
   if (!s.reserved.emitters.contains(id)) return stale("emitter");
   if (Status fine = validate_reserved(def, s); !fine) return fine;
   if (leads_to(s, def, id))

@@ -10,6 +10,7 @@
 #include "engine/scene/build/start_warnings.hpp"
 #include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 
 #include <cmath>
 

@@ -1,12 +1,14 @@
 #pragma once
+#include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/scene/description.hpp"
-#include "engine/world/world.hpp"
 
 #include <map>
 #include <string>
 #include <vector>
 
 namespace tumble {
+
+class World;
 
 /// Takes the particles out of a fluid that would begin in bodies, or nearer to them than a quarter
 /// of their spacing, and says how many; warns of a fluid that nothing is near. `bodies` are those

@@ -2,6 +2,7 @@
 
 #include "engine/scene/build/ids_of_name.hpp"
 #include "engine/scene/build/near_pairs.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 

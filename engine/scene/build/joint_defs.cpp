@@ -2,6 +2,7 @@
 
 #include "engine/math/rotation.hpp"
 #include "engine/scene/repetition.hpp"
+#include "engine/world/world.hpp"
 
 #include <numbers>
 

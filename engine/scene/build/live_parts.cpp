@@ -8,6 +8,7 @@
 #include "engine/scene/build/weave_defs.hpp"
 #include "engine/scene/visitors/object_validator.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ Status checked(const std::string& name, const PartDescription& part) {
   };
   std::visit(
       [&](const auto& d) {
-        ObjectValidator(sink, {}).visit(d, fmt::format("{}.{}", list_of(part), name));
+        validate_object(struct_ref(d), fmt::format("{}.{}", list_of(part), name), sink);
       },
       part);
   if (first) return *std::move(first);
@@ -159,7 +160,7 @@ bool tied_alike(const ParticleSystemDescription& a, const ParticleSystemDescript
     out.cloth = d.cloth;
     out.net = d.net;
     out.rope = d.rope;
-    return ObjectWriter::write_all(out);
+    return write_all(out);
   };
   return ties(a) == ties(b);
 }

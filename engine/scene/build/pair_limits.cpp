@@ -1,5 +1,7 @@
 #include "engine/scene/build/pair_limits.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

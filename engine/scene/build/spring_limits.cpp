@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/dense.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

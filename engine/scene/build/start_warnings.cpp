@@ -2,6 +2,7 @@
 
 #include "engine/scene/build/pair_limits.hpp"
 #include "engine/scene/build/spring_limits.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/named_order.hpp"
+#include "engine/world/world.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/scene/description/parameter.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/robot_files/robot_base.hpp"
 
@@ -85,6 +86,18 @@ struct RobotDescription {
     v.map(d.target_deg, {.name = "target_deg",
                          .unit = "deg",
                          .doc = "where motors pull turning joints, by the file's names"});
+  }
+};
+
+/// What of a scene must be known before its robots are.
+struct RobotsOfScene {
+  NamedList<ParameterDescription> parameters_;
+  NamedList<RobotDescription> robots;
+
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.map(d.parameters_, {.name = "parameters"});
+    v.map(d.robots, {.name = "robots"});
   }
 };
 

@@ -16,18 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What of a scene must be known before its robots are.
-struct RobotsOfScene {
-  NamedList<ParameterDescription> parameters_;
-  NamedList<RobotDescription> robots;
-
-  template <class Visitor, class Self>
-  static void parameters(Visitor& v, Self& d) {
-    v.map(d.parameters_, {.name = "parameters"});
-    v.map(d.robots, {.name = "robots"});
-  }
-};
-
 void set_all_lines(JsonNode& node, int line) {
   node.line = line;
   for (JsonNode& item : node.items) set_all_lines(item, line);
@@ -45,14 +33,14 @@ RobotsOfScene read_robots(const JsonNode& root, const std::string& file, FaultLi
   RobotsOfScene out;
   FaultList found;
   ReadContext context{file, found, {}};
-  ObjectReader::read_object(context, head, {}, out);
+  read_object(context, head, {}, struct_ref(out));
   const FaultSink sink = [&](std::string path, std::string message) {
     if (!found.covers(path)) {
       const int line = line_of(head, path);
       found.add({line == 0 ? "--set" : file, line, std::move(path), std::move(message)});
     }
   };
-  ObjectValidator(sink, {}).part(out);
+  validate_object(struct_ref(out), {}, sink);
   for (const Fault& f : found.sorted())  // those of parameters are found again with the scene
     if (f.path.starts_with("robots")) faults.add(f);
   return out;

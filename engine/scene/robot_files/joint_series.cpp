@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-using Kind = RobotJoint::Kind;
+using JointType = RobotJoint::Kind;
 
 bool at_right_angles(const Vec3& a, const Vec3& b) {
   return std::fabs(a.dot(b)) < robot_tolerances::same_direction;
@@ -35,7 +35,7 @@ std::optional<Vec3> crossing(const RobotJoint& a, const RobotJoint& b) {
 }
 
 std::optional<JointStage> universal(const RobotJoint& a, const RobotJoint& b) {
-  if (a.kind != Kind::hinge || b.kind != Kind::hinge || !at_right_angles(a.axis, b.axis))
+  if (a.kind != JointType::hinge || b.kind != JointType::hinge || !at_right_angles(a.axis, b.axis))
     return std::nullopt;
   if (!starts_at_zero(a) || !starts_at_zero(b)) return std::nullopt;
   const auto point = crossing(a, b);
@@ -44,8 +44,8 @@ std::optional<JointStage> universal(const RobotJoint& a, const RobotJoint& b) {
 }
 
 std::optional<JointStage> cylindrical(const RobotJoint& a, const RobotJoint& b) {
-  const bool slide_first = a.kind == Kind::slide && b.kind == Kind::hinge;
-  const bool hinge_first = a.kind == Kind::hinge && b.kind == Kind::slide;
+  const bool slide_first = a.kind == JointType::slide && b.kind == JointType::hinge;
+  const bool hinge_first = a.kind == JointType::hinge && b.kind == JointType::slide;
   if ((!slide_first && !hinge_first) || !along(a.axis, b.axis)) return std::nullopt;
   if (!starts_at_zero(a) || !starts_at_zero(b)) return std::nullopt;
   JointStage out;
@@ -58,7 +58,8 @@ std::optional<JointStage> cylindrical(const RobotJoint& a, const RobotJoint& b) 
 }
 
 std::optional<JointStage> planar(const RobotJoint& a, const RobotJoint& b, const RobotJoint& c) {
-  if (a.kind != Kind::slide || b.kind != Kind::slide || c.kind != Kind::hinge) return std::nullopt;
+  if (a.kind != JointType::slide || b.kind != JointType::slide || c.kind != JointType::hinge)
+    return std::nullopt;
   if (!at_right_angles(a.axis, b.axis) || !along(a.axis.cross(b.axis), c.axis) || !is_idle(a) ||
       !is_idle(b) || !starts_at_zero(a) || !starts_at_zero(b) || !starts_at_zero(c))
     return std::nullopt;
@@ -66,9 +67,9 @@ std::optional<JointStage> planar(const RobotJoint& a, const RobotJoint& b, const
 }
 
 JointStage single(const RobotJoint& j) {
-  const JointKind kind = j.kind == Kind::slide  ? JointKind::prismatic
-                         : j.kind == Kind::ball ? JointKind::spherical
-                                                : JointKind::revolute;
+  const JointKind kind = j.kind == JointType::slide  ? JointKind::prismatic
+                         : j.kind == JointType::ball ? JointKind::spherical
+                                                     : JointKind::revolute;
   return {kind, {}, j.anchor, j.axis, {}, {""}};
 }
 
@@ -93,7 +94,7 @@ std::vector<JointStage> joint_stages(std::span<const RobotJoint> joints) {
 
 DriveDescription drive_of_joint(const RobotJoint& joint, const std::optional<HoldingGains>& hold) {
   DriveDescription out;
-  const bool angle = joint.kind == Kind::hinge;
+  const bool angle = joint.kind == JointType::hinge;
   const auto given = [angle](double value, auto& length, auto& degrees) {
     if (angle)
       degrees = value / per_degree;

@@ -21,15 +21,15 @@ std::string one_line(const Json& value) {
 }
 
 Json number_of(const ShapeDef& shape, const ShapeParameter& p) {
-  if (p.number) return to_json(shape.*p.number / p.factor);
+  if (p.number) return shape.*p.number / p.factor;
   return to_json(Vec3(shape.*p.vector / p.factor));
 }
 
 Json material_json(const Material& material) {
-  const Json all = ObjectWriter::write_all(describe_material(material));
+  const Json all = write_all(describe_material(material));
   for (const auto& [name, m] : built_in_materials())
-    if (ObjectWriter::write_all(describe_material(m)) == all) return std::string(name);
-  const Json usual = ObjectWriter::write_all(describe_material(Material{}));
+    if (write_all(describe_material(m)) == all) return std::string(name);
+  const Json usual = write_all(describe_material(Material{}));
   Json out = Json::object();
   for (const auto& item : all.items())
     if (usual[item.key()] != item.value()) out[item.key()] = item.value();
@@ -39,7 +39,7 @@ Json material_json(const Material& material) {
 Json body_json(const BodyDef& def) {
   BodyDescription d = describe_body(def);
   d.placement.turn(def.pose.q);
-  Json out = ObjectWriter::write_object(d);
+  Json out = write_object(d);
   Json shapes = Json::array();
   for (const BodyShapeDef& part : def.shapes) {
     Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
@@ -62,11 +62,11 @@ Json body_json(const BodyDef& def) {
 }
 
 Json drive_json(const CoordinateDrive& drive, bool angle) {
-  return ObjectWriter::write_object(describe_drive(drive, angle));
+  return write_object(describe_drive(drive, angle));
 }
 
 Json part_json(const PartDescription& part) {
-  return std::visit([](const auto& d) { return ObjectWriter::write_object(d); }, part);
+  return std::visit([](const auto& d) { return write_object(d); }, part);
 }
 
 }  // namespace tumble

@@ -158,8 +158,8 @@ void FileChanges::operator()(const ChangedBody& c) {
   const BodyName name = split_name(c.name);
   const Path body = Path{} / "bodies" / name.base;
   const Path path = name.copy ? body / "copies" / *name.copy : body;
-  const Json before = ObjectWriter::write_all(describe_body(c.before));
-  Json after = ObjectWriter::write_all(describe_body(c.after));
+  const Json before = write_all(describe_body(c.before));
+  Json after = write_all(describe_body(c.after));
   if (name.copy) keep_what_copies_have(c.name, before, after);
   if (after["euler_deg"] != before["euler_deg"]) {
     for (const char* other : {"orientation", "axis", "angle_deg"}) edit.remove(path / other);
@@ -263,7 +263,7 @@ void FileChanges::change_material(const Path& path, const BodyName& name,
   const auto material_of = [](const BodyShapeDef& s) {
     Material m = s.material;
     if (s.filled != 1) m.density /= s.filled;
-    return ObjectWriter::write_all(describe_material(m));
+    return write_all(describe_material(m));
   };
   const Json before = material_of(group.before);
   Json after = material_of(group.after);

@@ -44,7 +44,7 @@ void FileChanges::merge(const Path& path, const Json& before, const Json& after)
 }
 
 void FileChanges::operator()(const ChangedSettings& c) {
-  merge(Path{} / "settings", ObjectWriter::write_all(c.before), ObjectWriter::write_all(c.after));
+  merge(Path{} / "settings", write_all(c.before), write_all(c.after));
 }
 
 void FileChanges::operator()(const ChangedParameter& c) {

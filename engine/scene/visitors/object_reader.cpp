@@ -1,10 +1,100 @@
 #include "engine/scene/visitors/object_reader.hpp"
 
 #include "engine/core/text.hpp"
+#include "engine/scene/description/body.hpp"
+#include "engine/scene/description/parameter.hpp"
 
 #include <algorithm>
 
 namespace tumble {
+namespace {
+
+/// Visitor that fills the members of one object.
+class ObjectReader final : public StructVisitor {
+ public:
+  ObjectReader(ReadContext& context, const JsonNode& node, std::string path,
+               std::string_view shorthand)
+      : c_(context), node_(node), path_(std::move(path)), shorthand_(shorthand) {}
+
+  void field(const Leaf& value, const Parameter& p) override {
+    if (const JsonNode* n = take(p)) read_value(c_, *n, at(p.name), value);
+  }
+  void object(const StructRef& value, const Parameter& p) override {
+    if (const JsonNode* n = take(p)) read_object(c_, *n, at(p.name), value);
+  }
+  void object(const OptionalRef& value, const Parameter& p) override {
+    if (const JsonNode* n = take(p)) read_object(c_, *n, at(p.name), value.emplace());
+  }
+  void list(const ListRef& values, const Parameter& p) override;
+  void map(const MapRef& values, const Parameter& p) override;
+  void one_of(const VariantRef& value, const Parameter& p) override;
+  void part(const StructRef& value) override { value.type->parameters(value.object, *this); }
+
+  /// Faults for keys that nobody asked for.
+  void finish();
+
+ private:
+  /// The node of a key, or null (with a fault when it is required).
+  const JsonNode* take(const Parameter& p);
+  std::string at(std::string_view key) const;
+  void check_name(const JsonNode& node, const std::string& path, const std::string& name,
+                  bool number);
+
+  ReadContext& c_;
+  const JsonNode& node_;
+  std::string path_;
+  std::string_view shorthand_;  ///< key of the one value that a bare node stands for
+  std::vector<std::string> known_;
+  bool lenient_ = false;
+};
+
+/// An array of objects, or a single one.
+void ObjectReader::list(const ListRef& values, const Parameter& p) {
+  const JsonNode* n = take(p);
+  if (!n) return;
+  const std::string path = at(p.name);
+  const bool array = n->is(JsonNode::Kind::array);
+  const bool single =
+      values.type->item->shorthand_key.empty() ? n->is(JsonNode::Kind::object) : !array;
+  if (single) return read_object(c_, *n, path + "[0]", values.append());
+  if (!array) return c_.fault(*n, path, "must be an array of objects, got " + brief(*n));
+  values.type->reserve(values.list, n->items.size());
+  for (size_t i = 0; i < n->items.size(); ++i)
+    read_object(c_, n->items[i], path + "[" + std::to_string(i) + "]", values.append());
+}
+
+void ObjectReader::map(const MapRef& values, const Parameter& p) {
+  const JsonNode* n = take(p);
+  if (!n) return;
+  if (!n->is(JsonNode::Kind::object))
+    return c_.fault(*n, at(p.name),
+                    "must be an object that maps names to values, got " + brief(*n));
+  if (n->items.size() > max_names)
+    return c_.fault(*n, at(p.name),
+                    "has " + std::to_string(n->items.size()) + " names; at most " +
+                        std::to_string(max_names) + " are read (repeat makes many copies of one)");
+  const StructType* item = values.type->item;
+  for (size_t i = 0; i < n->items.size(); ++i) {
+    const std::string path = at(p.name) + "." + n->keys[i];
+    check_name(n->items[i], path, n->keys[i], item == &struct_type<CopyDescription>());
+    const StructRef value = values.add(n->keys[i]);
+    read_object(c_, n->items[i], path, value);
+    if (item == &struct_type<ParameterDescription>())
+      c_.parameters.emplace_back(n->keys[i],
+                                 static_cast<const ParameterDescription*>(value.object)->value);
+  }
+}
+
+void ObjectReader::one_of(const VariantRef& value, const Parameter& p) {
+  std::vector<std::string> names;
+  for (const StructType* type : value.type->alternatives) names.emplace_back(type->type_name);
+  const JsonNode* n = take(p);
+  const auto chosen = n ? read_name(c_, *n, at(p.name), p.name, names) : std::nullopt;
+  if (chosen)
+    part(value.emplace(*chosen));
+  else
+    lenient_ = true;  // what the other keys mean is unknown
+}
 
 std::string ObjectReader::at(std::string_view key) const {
   if (!shorthand_.empty()) return path_;
@@ -47,6 +137,18 @@ void ObjectReader::finish() {
     if (path_.empty() && key == "$schema") continue;
     c_.fault(node_.items[i], at(key), unknown_name("key", key, known_));
   }
+}
+
+}  // namespace
+
+void read_object(ReadContext& c, const JsonNode& node, const std::string& path,
+                 const StructRef& out) {
+  const bool bare = !node.is(JsonNode::Kind::object);
+  if (bare && out.type->shorthand_key.empty())
+    return c.fault(node, path, "must be an object, got " + brief(node));
+  ObjectReader reader(c, node, path, bare ? out.type->shorthand_key : std::string_view());
+  reader.part(out);
+  reader.finish();
 }
 
 }  // namespace tumble

@@ -73,17 +73,9 @@ std::optional<double> whole(double x) {
   return nearest;
 }
 
-}  // namespace
-
-void ReadContext::fault(const JsonNode& node, std::string path, std::string message) {
-  faults.add({node.line > 0 ? file : "--set", node.line, std::move(path), std::move(message)});
-}
-
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, double& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, double& out) {
   if (const auto value = number(c, node, path)) out = *value;
 }
-
-namespace {
 
 bool varies(const Expression& expression, const ReadContext& c) {
   const auto is_time = [](const auto& parameter) { return parameter.first == "t"; };
@@ -108,9 +100,7 @@ void read_table(ReadContext& c, const JsonNode& node, const std::string& path, V
   take_course(c, node, path, TimeCourse::table(std::move(points)), out);
 }
 
-}  // namespace
-
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Varying& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, Varying& out) {
   if (node.is(Kind::array)) return read_table(c, node, path, out);
   if (is_expression(node)) {
     std::string text = node.string.substr(1);
@@ -123,7 +113,7 @@ void read_value(ReadContext& c, const JsonNode& node, const std::string& path, V
   if (const auto value = number(c, node, path)) out = *value;
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, int& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, int& out) {
   const auto value = number(c, node, path);
   if (!value) return;
   const auto integer = whole(*value);
@@ -135,7 +125,7 @@ void read_value(ReadContext& c, const JsonNode& node, const std::string& path, i
   out = int(*integer);
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, uint64_t& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, uint64_t& out) {
   if (node.is(Kind::integer) && !node.negative) {
     out = node.magnitude;
     return;
@@ -148,36 +138,36 @@ void read_value(ReadContext& c, const JsonNode& node, const std::string& path, u
   out = uint64_t(*integer);
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, bool& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, bool& out) {
   if (!node.is(Kind::boolean))
     return c.fault(node, path, "must be true or false, got " + brief(node));
   out = node.boolean;
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, std::string& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, std::string& out) {
   if (!node.is(Kind::string)) return c.fault(node, path, "must be a string, got " + brief(node));
   out = node.string;
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Vec3& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, Vec3& out) {
   Vec3 value = out;
   if (numbers(c, node, path, value.data(), 3)) out = value;
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Quat& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, Quat& out) {
   double value[4];
   if (numbers(c, node, path, value, 4)) out = Quat(value[0], value[1], value[2], value[3]);
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path,
-                std::array<int, 3>& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path,
+               std::array<int, 3>& out) {
   if (!node.is(Kind::array) || node.items.size() != 3)
     return c.fault(node, path, "must be an array of 3 whole numbers, got " + brief(node));
   for (size_t i = 0; i < 3; ++i)
-    read_value(c, node.items[i], path + "[" + std::to_string(i) + "]", out[i]);
+    read_leaf(c, node.items[i], path + "[" + std::to_string(i) + "]", out[i]);
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, Colour& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, Colour& out) {
   if (node.is(Kind::array)) {
     double value[3];
     if (numbers(c, node, path, value, 3)) out = {value[0], value[1], value[2]};
@@ -195,7 +185,7 @@ void read_value(ReadContext& c, const JsonNode& node, const std::string& path, C
   c.fault(node, path, unknown_name("colour", node.string, palette_names()));
 }
 
-void read_value(ReadContext& c, const JsonNode& node, const std::string& path, TickRate& out) {
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, TickRate& out) {
   if (node.is(Kind::string) && !is_expression(node)) {
     TickRate rate;
     const char* end = node.string.data() + node.string.size();
@@ -211,10 +201,45 @@ void read_value(ReadContext& c, const JsonNode& node, const std::string& path, T
   }
   int hertz = 0;
   const bool had_faults = c.faults.covers(path);
-  read_value(c, node, path, hertz);
+  read_leaf(c, node, path, hertz);
   if (!had_faults && c.faults.covers(path)) return;
   if (hertz < 1) return c.fault(node, path, "must be >= 1 Hz, got " + brief(node));
   out = {hertz, 1};
+}
+
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, const EnumRef& out) {
+  if (const auto i = read_name(c, node, path, "value", out.type->names))
+    out.type->set(out.value, *i);
+}
+
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path,
+               const OptionalLeafRef& out) {
+  read_value(c, node, path, out.type->emplace(out.option));
+}
+
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path,
+               const LeafListRef& out) {
+  if (!node.is(Kind::array)) return c.fault(node, path, "must be an array, got " + brief(node));
+  out.type->clear(out.list);
+  for (size_t i = 0; i < node.items.size(); ++i)
+    read_value(c, node.items[i], path + "[" + std::to_string(i) + "]", out.type->append(out.list));
+}
+
+}  // namespace
+
+void ReadContext::fault(const JsonNode& node, std::string path, std::string message) {
+  faults.add({node.line > 0 ? file : "--set", node.line, std::move(path), std::move(message)});
+}
+
+void read_value(ReadContext& c, const JsonNode& node, const std::string& path, const Leaf& out) {
+  std::visit(
+      [&](auto value) {
+        if constexpr (std::is_pointer_v<decltype(value)>)
+          read_leaf(c, node, path, *value);
+        else
+          read_leaf(c, node, path, value);
+      },
+      static_cast<const Leaf::variant&>(out));
 }
 
 std::optional<size_t> read_name(ReadContext& c, const JsonNode& node, const std::string& path,

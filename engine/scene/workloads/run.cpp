@@ -4,6 +4,7 @@
 #include "engine/math/det/det.hpp"
 #include "engine/scene/workloads/parts.hpp"
 #include "engine/scene/workloads/peak_memory.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <chrono>

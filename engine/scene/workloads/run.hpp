@@ -1,11 +1,16 @@
 #pragma once
+#include "engine/core/memory_use.hpp"
 #include "engine/core/result.hpp"
 #include "engine/scene/workloads/end_state.hpp"
-#include "engine/world/world.hpp"
+#include "engine/world/frame.hpp"
+#include "engine/world/world_def.hpp"
 
 #include <functional>
 
 namespace tumble {
+
+class StopFlag;
+struct StepReport;
 
 struct WorkloadOptions {
   WorldSettings settings;

@@ -3,6 +3,7 @@
 #include "engine/world/microscope/chart.hpp"
 #include "engine/world/microscope/world_copy.hpp"
 #include "engine/world/tick_watch.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

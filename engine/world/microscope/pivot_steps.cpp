@@ -5,6 +5,7 @@
 #include "engine/math/lcp/validate.hpp"
 #include "engine/world/microscope/pivot_words.hpp"
 #include "engine/world/microscope/world_copy.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,11 @@
 #pragma once
 #include "engine/world/microscope/microscope.hpp"
-#include "engine/world/world.hpp"
+#include "engine/world/world_def.hpp"
 
 namespace tumble {
+
+struct BodyInfo;
+struct Frame;
 
 /// A world of its own in the state of another one, on the calling thread: what it does next is what
 /// the other will do if nobody touches it. With `stepper` it goes on by that one. Error: the copy

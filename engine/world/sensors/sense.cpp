@@ -42,7 +42,7 @@ void for_kind(const SensorSet& sensors, SensorKind kind, const F& f) {
     if (sensors.ids.alive(i) && sensors.defs[i].kind == kind) f(i);
 }
 
-void find_body_paths(World::State& s, std::vector<CentrePath>& out) {
+void find_body_paths(WorldState& s, std::vector<CentrePath>& out) {
   out.clear();
   for (uint32_t slot = 0; slot < s.bodies.bodies.size(); ++slot) {
     const RigidBody& b = s.bodies.bodies[slot];
@@ -64,7 +64,7 @@ void find_particle_paths(const ParticleSystem& start, const ParticleSystem& now,
   }
 }
 
-void find_particle_paths(World::State& s, std::vector<std::vector<CentrePath>>& out) {
+void find_particle_paths(WorldState& s, std::vector<std::vector<CentrePath>>& out) {
   out.resize(s.particles.size());
   const std::vector<ParticleSystem>& start = s.before.backup.particles();
   const std::vector<ParticleSystem>& dead = s.workspace.emission.dead;
@@ -129,7 +129,7 @@ void note(const Tally& tally, const SensorDef& def, double now, double h, Sensor
   state.flow = sum / std::clamp(now - state.begun, h, span);
 }
 
-void sense_gates(World::State& s) {
+void sense_gates(WorldState& s) {
   const SensorSet& sensors = s.sensors;
   SensorScratch& scratch = s.workspace.sensors;
   bool any = false, bodies = false, particles = false;
@@ -167,7 +167,7 @@ struct Touch {
   Vec3 impulse = Vec3::Zero();  ///< on a [N s]
 };
 
-Touch look_up(const World::State& s, const SensorDef& def, double rattle) {
+Touch look_up(const WorldState& s, const SensorDef& def, double rattle) {
   Touch out;
   const auto look = [&](const Contact& c) {
     const bool first = c.key.body_a == def.a.index;
@@ -188,7 +188,7 @@ Touch look_up(const World::State& s, const SensorDef& def, double rattle) {
   return out;
 }
 
-void sense_contacts(World::State& s) {
+void sense_contacts(WorldState& s) {
   const double h = s.settings.tick.tick();
   const double rattle = tolerances::rattle_gap * s.settings.gravity.norm() * h * h;
   for_kind(s.sensors, SensorKind::contact, [&](uint32_t i) {
@@ -204,7 +204,7 @@ void sense_contacts(World::State& s) {
 }
 
 /// What is in a region now.
-void fill_region(const World::State& s, const SensorDef& def, SensorFrame& out) {
+void fill_region(const WorldState& s, const SensorDef& def, SensorFrame& out) {
   if (looks_at_bodies(def))
     for (uint32_t slot = 0; slot < s.bodies.bodies.size(); ++slot) {
       const RigidBody& b = s.bodies.bodies[slot];
@@ -227,7 +227,7 @@ void fill_region(const World::State& s, const SensorDef& def, SensorFrame& out) 
   }
 }
 
-void fill(const World::State& s, uint32_t slot, SensorFrame& out) {
+void fill(const WorldState& s, uint32_t slot, SensorFrame& out) {
   const SensorDef& def = s.sensors.defs[slot];
   const SensorState& state = s.sensors.states[slot];
   out.id = s.sensors.ids.at(slot);
@@ -257,19 +257,19 @@ void fill(const World::State& s, uint32_t slot, SensorFrame& out) {
 
 }  // namespace
 
-void sense_tick(World::State& s) {
+void sense_tick(WorldState& s) {
   if (s.sensors.empty()) return;
   const ScopedStage stage(s.profiler, "sensors");
   sense_gates(s);
   sense_contacts(s);
 }
 
-bool sensing_goes_on(const World::State& s) {
+bool sensing_goes_on(const WorldState& s) {
   return std::ranges::any_of(s.sensors.states,
                              [](const SensorState& state) { return !state.recent.empty(); });
 }
 
-void make_sensor_frames(const World::State& s, std::vector<SensorFrame>& out) {
+void make_sensor_frames(const WorldState& s, std::vector<SensorFrame>& out) {
   out.resize(s.sensors.ids.count());
   auto next = out.begin();
   for (uint32_t i = 0; i < s.sensors.defs.size(); ++i)

@@ -1,10 +1,11 @@
 #pragma once
 #include "engine/world/sensors/sensor_frame.hpp"
-#include "engine/world/world.hpp"
 
 #include <vector>
 
 namespace tumble {
+
+struct WorldState;
 
 /// The straight path of a centre from the beginning to the end of a tick.
 struct CentrePath {
@@ -22,12 +23,12 @@ struct SensorScratch {
 /// The stage at the end of a tick that has succeeded: gates count who went through them since its
 /// beginning, contacts are looked up. Particles born in the tick come from where they were born;
 /// those that died in it went as far as they came. Without sensors it does nothing.
-void sense_tick(World::State& state);
+void sense_tick(WorldState& state);
 
 /// Whether ticks in which nothing moves change what sensors say: the flow of the last span.
-bool sensing_goes_on(const World::State& state);
+bool sensing_goes_on(const WorldState& state);
 
 /// What the sensors say now, in the order of their slots; over what `out` held.
-void make_sensor_frames(const World::State& state, std::vector<SensorFrame>& out);
+void make_sensor_frames(const WorldState& state, std::vector<SensorFrame>& out);
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #include "engine/core/registry.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/workloads/run.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/bench/report.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/options.hpp"

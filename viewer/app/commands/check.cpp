@@ -1,5 +1,6 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/lesson_check.hpp"

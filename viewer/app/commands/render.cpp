@@ -1,5 +1,6 @@
 #include "engine/core/hash.hpp"
 #include "engine/scene/pack/pack.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/options.hpp"

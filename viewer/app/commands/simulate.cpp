@@ -3,6 +3,7 @@
 #include "engine/math/expression.hpp"
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/options.hpp"

@@ -1,3 +1,4 @@
+#include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"

@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 
 #include <span>
 

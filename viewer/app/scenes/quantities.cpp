@@ -1,6 +1,7 @@
 #include "viewer/app/scenes/quantities.hpp"
 
 #include "engine/scene/build.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <array>

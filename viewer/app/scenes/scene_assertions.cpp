@@ -2,6 +2,7 @@
 
 #include "engine/core/text.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/scenes/quantities.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "engine/collision/shape.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/render/scene_scales.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "viewer/app/scenes/scene_replay.hpp"
 
 #include "engine/scene/pack/pack.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/capture/atomic_file.hpp"
 

@@ -1,6 +1,7 @@
 #include "viewer/app/session/replay_saver.hpp"
 
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/free_name.hpp"
 

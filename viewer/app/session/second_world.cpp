@@ -1,5 +1,7 @@
 #include "viewer/app/session/second_world.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 #include <utility>
 

@@ -2,6 +2,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/world/keyframes.hpp"
 #include "engine/world/settings.hpp"
+#include "engine/world/world_def.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 
 #include <array>

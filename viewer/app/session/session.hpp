@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/keyframes.hpp"
+#include "engine/world/world_def.hpp"
 #include "viewer/app/scenes/tick_watcher.hpp"
 #include "viewer/app/session/triple_buffer.hpp"
 
@@ -21,7 +22,6 @@ namespace tumble {
 
 class ReplayPlayer;
 class SecondWorld;
-class World;
 
 struct SessionOptions {
   size_t keyframe_bytes = size_t{256} << 20;  ///< memory for stepping back

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/world/world_def.hpp"
 #include "viewer/app/session/recorder.hpp"
 #include "viewer/app/session/session.hpp"
 

@@ -1,6 +1,7 @@
 #include "viewer/app/simulate/convergence.hpp"
 
 #include "engine/math/rotation.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

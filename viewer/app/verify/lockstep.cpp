@@ -1,5 +1,7 @@
 #include "viewer/app/verify/lockstep.hpp"
 
+#include "engine/world/world.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

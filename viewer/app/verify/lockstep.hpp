@@ -1,6 +1,5 @@
 #pragma once
-#include "engine/core/stop.hpp"
-#include "engine/world/world.hpp"
+#include "engine/core/result.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -8,6 +7,9 @@
 #include <string>
 
 namespace tumble {
+
+struct Frame;
+class World;
 
 /// How far two worlds of one scene are apart at one moment.
 struct Divergence {

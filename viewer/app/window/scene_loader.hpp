@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/stop.hpp"
+#include "engine/world/world_def.hpp"
 #include "viewer/app/editing/scene_saver.hpp"
 #include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/ui/ui_state.hpp"
@@ -19,7 +20,6 @@ class LiveParts;
 class ReplayPlayer;
 class SceneAssertions;
 class SceneLesson;
-class World;
 
 /// What is to be opened: a scene by name, or a scene or mesh file by path.
 struct SceneWish {
