@@ -4,7 +4,7 @@
 #include "engine/collision/surface_element.hpp"
 #include "engine/core/parameters.hpp"
 #include "engine/core/result.hpp"
-#include "engine/geometry/constructions/ray_casts.hpp"
+#include "engine/geometry/constructions/ray.hpp"
 #include "engine/geometry/debug_draw.hpp"
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/triangle_mesh.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/core/profiler.hpp"
+#include "engine/core/stage_times.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/forces/force.hpp"
 #include "engine/dynamics/joints/joint.hpp"

@@ -3,6 +3,7 @@
 #include "engine/collision/shapes/parameters.hpp"
 #include "engine/collision/shapes/round_side.hpp"
 #include "engine/collision/shapes/validation.hpp"
+#include "engine/geometry/constructions/ray_casts.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <algorithm>

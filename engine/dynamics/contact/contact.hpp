@@ -3,7 +3,6 @@
 #include "engine/collision/manifold.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -60,12 +59,15 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
   Contact() {}  // not cleared where it is made by resize
   /// Whether any point pressed during the last tick.
   bool pressed() const {
-    return std::ranges::any_of(used(), [](const ContactPoint& p) { return p.normal_impulse > 0; });
+    for (const ContactPoint& p : used())
+      if (p.normal_impulse > 0) return true;
+    return false;
   }
   /// Points that pressed at the end of the last tick.
   int pressing() const {
-    return int(
-        std::ranges::count_if(used(), [](const ContactPoint& p) { return p.normal_force > 0; }));
+    int count = 0;
+    for (const ContactPoint& p : used()) count += p.normal_force > 0;
+    return count;
   }
   /// Whether it resists turning by more than its points.
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
@@ -94,7 +96,8 @@ struct CombinedMaterial {
 /// two materials, or what carries their coefficients.
 template <class Side>
 CombinedMaterial combine(const Side& a, const Side& b) {
-  return {std::sqrt(a.friction * b.friction), std::max(a.restitution, b.restitution),
+  return {std::sqrt(a.friction * b.friction),
+          a.restitution < b.restitution ? b.restitution : a.restitution,
           std::sqrt(a.rolling_friction * b.rolling_friction),
           std::sqrt(a.torsional_friction * b.torsional_friction)};
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/contact/contact_set.hpp"
+#include "engine/dynamics/contact/contact.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
 #include <cstdint>

@@ -1,9 +1,7 @@
 #pragma once
-#include "engine/core/crew.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -12,6 +10,7 @@
 
 namespace tumble {
 
+class Crew;
 struct ForceTag;
 using ForceId = Handle<ForceTag>;
 
@@ -64,16 +63,9 @@ struct ForceContext {
   Crew* crew = nullptr;
 
   bool only_some() const { return momentary || !only.empty(); }
-  bool may_pull(uint32_t slot) const {
-    return !only_some() || std::binary_search(only.begin(), only.end(), slot);
-  }
+  bool may_pull(uint32_t slot) const;
   /// Those of `only` that are blocks of a system of particles.
-  std::span<const uint32_t> asked_blocks(uint32_t system) const {
-    if (system >= particle_slots.size() || particle_slots[system] == ~uint32_t{0}) return {};
-    const uint32_t first = particle_slots[system];
-    const auto begin = std::lower_bound(only.begin(), only.end(), first);
-    return {begin, std::lower_bound(begin, only.end(), first + particles[system].size())};
-  }
+  std::span<const uint32_t> asked_blocks(uint32_t system) const;
 };
 
 /// Position and velocity of an anchor now; empty when what it was on is gone.

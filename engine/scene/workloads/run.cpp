@@ -1,6 +1,7 @@
 #include "engine/scene/workloads/run.hpp"
 
 #include "engine/core/elapsed.hpp"
+#include "engine/core/profiler.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/scene/workloads/parts.hpp"
 #include "engine/scene/workloads/peak_memory.hpp"
