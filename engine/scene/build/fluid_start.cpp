@@ -3,6 +3,7 @@
 #include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/dynamics/sph/fluid_solver.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/world/world.hpp"
 
 #include <cmath>
 
