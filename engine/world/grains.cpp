@@ -147,6 +147,9 @@ Status step_grains(WorldState& s, const TickBackup& start) {
                        s.settings.realtime,
                        s.crew.get()};
   if (Status done = s.workspace.grains.step(tick, s.grain_touches, report); !done) return done;
+  // Each has one point; those of grains that sleep are among them.
+  s.stats.contacts += s.grain_touches.all().size();
+  s.stats.contact_points += s.grain_touches.all().size();
   if (!report.moved) return {};
   if (report.woke_bodies) s.roster.forget();
   GrainBooks(s, start).book();

@@ -143,10 +143,12 @@ ContactFrames make_contacts(WorldState& s, const Frame& frame,
 ContactFrames make_active_contacts(WorldState& s, const Frame& frame) {
   const std::span<const Contact> contacts = std::as_const(s.contacts).contacts();
   s.frames.contacts.resize(contacts.size());
-  for (size_t k = 0; k < contacts.size(); ++k) s.frames.contacts[k] = &contacts[k];
-  return make_contacts(
-      s, frame, s.frames.contacts,
-      s.stats.contact_points - std::min(s.stats.contact_points, s.contacts.resting_points()));
+  size_t points = 0;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    s.frames.contacts[k] = &contacts[k];
+    points += size_t(contacts[k].count);
+  }
+  return make_contacts(s, frame, s.frames.contacts, points);
 }
 
 /// Where nothing was put away or brought back since the last frame, its list.

@@ -112,6 +112,32 @@ TEST_CASE("grains: a box lies on them, and both come to rest") {
   CHECK(w.body(box).pose.x.y() == doctest::Approx(y).epsilon(0.02));
 }
 
+TEST_CASE("grains: the statistics count what presses, moving and asleep") {
+  TestWorld w(realtime());
+  w.ground();
+  // A column of four: three contacts of two grains, and one with the ground.
+  ParticleSystemDef def;
+  def.name = "column";
+  def.grains = GrainDef{0.1, 0.05};
+  for (int k = 0; k < 4; ++k) {
+    ParticleDef p;
+    p.radius = 0.01;
+    p.mass = 0.01;
+    p.x = {0, 0.01 + 0.02 * k, 0};
+    def.particles.push_back(p);
+  }
+  add(w, def);
+  // And a box on the ground, which has contacts of its own.
+  w.box({1, 0.1, 0}, {0.1, 0.1, 0.1});
+  w.run(0.2);
+  CHECK(w->frame()->stats.contacts == 5);
+  CHECK(w->frame()->stats.contact_points == 8);
+  CHECK(w->frame()->contacts->size() == 4);
+  w.run(4);
+  CHECK(w->frame()->stats.contacts == 5);
+  CHECK(w->frame()->stats.contact_points == 8);
+}
+
 TEST_CASE("grains: what loses its floor falls") {
   TestWorld w(realtime());
   const BodyId floor = w.ground();

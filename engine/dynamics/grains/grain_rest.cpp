@@ -20,6 +20,7 @@ GrainRest& rest_of(const GrainTick& tick, const GrainField& grains, size_t i) {
 bool GrainRestWatch::time_slow(const GrainTick& tick, const GrainField& grains,
                                std::span<const Vec3> start) {
   const double share = tick.h / (tick.h + tolerances::grain_watch);
+  restless_.assign(grains.size(), 0);
   std::atomic<bool> any = false;
   for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
     bool enough = false;
@@ -34,6 +35,7 @@ bool GrainRestWatch::time_slow(const GrainTick& tick, const GrainField& grains,
       const double now = m.v.norm() + radius * m.spin.norm();
       const bool rests = r.drift.norm() < slow && now < tolerances::grain_wakes * slow;
       r.time = rests ? r.time + tick.h : 0;
+      restless_[i] = r.time < 0.5 * tick.settings.sleep_time;
       enough = enough || r.time >= tick.settings.sleep_time;
     }
     if (enough) any.store(true, std::memory_order_relaxed);
@@ -45,22 +47,30 @@ void GrainRestWatch::find_held(const GrainTick& tick, const GrainField& grains,
                                const GrainPairList& pairs, std::span<const GrainForces> forces,
                                const GrainBodies& bodies) {
   hold_.assign(grains.size(), Hold::none);
+  // What is added by "or" does not depend on the order of threads.
   const auto grasp = [this](size_t i, bool restless) {
-    hold_[i] = std::max(hold_[i], restless ? Hold::restless : Hold::firm);
+    const uint8_t added = restless ? Hold::restless : Hold::firm;
+    const std::atomic_ref<uint8_t> hold(hold_[i]);
+    if ((hold.load(std::memory_order_relaxed) & added) == 0)
+      hold.fetch_or(added, std::memory_order_relaxed);
   };
-  const double enough = 0.5 * tick.settings.sleep_time;
-  for (size_t k = 0; k < pairs.all.size(); ++k) {
-    if (!(forces[k].push > 0)) continue;
-    const auto [a, b] = pairs.all[k];
-    grasp(a, rest_of(tick, grains, b).time < enough);
-    grasp(b, rest_of(tick, grains, a).time < enough);
-  }
-  for (const std::span<const GrainBodyRow> rows : {bodies.walls(), bodies.held()})
-    for (const GrainBodyRow& row : rows) {
-      if (!(row.push > 0)) continue;
-      const RigidBody& body = tick.bodies.bodies[bodies.all()[row.b].slot];
-      grasp(row.a, body.awake() && (body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0)));
+  for_chunks(tick.crew, pairs.all.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      if (!(forces[k].push > 0)) continue;
+      const auto [a, b] = pairs.all[k];
+      grasp(a, restless_[b] != 0);
+      grasp(b, restless_[a] != 0);
     }
+  });
+  for (const std::span<const GrainBodyRow> rows : {bodies.walls(), bodies.held()})
+    for_chunks(tick.crew, rows.size(), [&](size_t, size_t first, size_t last) {
+      for (const GrainBodyRow& row : rows.subspan(first, last - first)) {
+        if (!(row.push > 0)) continue;
+        const RigidBody& body = tick.bodies.bodies[bodies.all()[row.b].slot];
+        grasp(row.a,
+              body.awake() && (body.dynamic() || !body.v.isZero(0) || !body.omega.isZero(0)));
+      }
+    });
 }
 
 void GrainRestWatch::watch(const GrainTick& tick, GrainField& grains, std::span<const Vec3> start,

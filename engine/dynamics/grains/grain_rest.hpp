@@ -18,12 +18,14 @@ class GrainRestWatch {
              const GrainBodies& bodies, GrainReport& report);
 
  private:
-  enum class Hold : uint8_t { none, firm, restless };
+  /// Bits: touches what has been slow for long enough, or is still; touches what has not.
+  enum Hold : uint8_t { none = 0, firm = 1, restless = 2 };
   bool time_slow(const GrainTick& tick, const GrainField& grains, std::span<const Vec3> start);
   void find_held(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
                  std::span<const GrainForces> forces, const GrainBodies& bodies);
 
-  std::vector<Hold> hold_;  ///< what a grain touches
+  std::vector<uint8_t> restless_;  ///< by place: awake, and not slow for half the time of sleep
+  std::vector<uint8_t> hold_;      ///< by place: what it touches, bits of Hold
 };
 
 }  // namespace tumble
