@@ -34,7 +34,10 @@ struct JointBlock {
   std::array<Values, most> factor;
   Values moving{};    ///< impulses that move the bodies onto the joint
   Values relaxing{};  ///< impulses that then put velocities right
-  JointPush sum;      ///< of the sub-steps so far
+  struct {
+    Values moving{}, relaxing{};
+  } before_blow;  ///< see remember_impulses
+  JointPush sum;  ///< of the sub-steps so far
 };
 
 }  // namespace tumble

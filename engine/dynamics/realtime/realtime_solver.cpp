@@ -163,14 +163,23 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 
 namespace {
 
-/// Restitution and joints in turn: the blow goes through the whole mechanism.
-void bounce(const SolverContext& c, const SolverIsland& island, double hs, const Softness& soft) {
+/// Restitution and joints in turn: the blow goes through the whole mechanism. Whether there was
+/// one.
+bool bounce(const SolverContext& c, const SolverIsland& island, double hs, const Softness& soft) {
   for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
     const double change = apply_restitution(c, island);
-    if (change == 0 || island.joints.empty()) return;
-    solve_joints(island, hs, soft, JointPass::relaxing);
-    if (change < tolerances::bounce_error) return;
+    if (change == 0 || island.joints.empty()) return turn > 0;
+    if (turn == 0 && !limit_bounces(island)) remember_impulses(island);
+    sweep_joints(island, hs, soft, JointPass::relaxing);
+    if (std::max(change, blow_change(island)) < tolerances::bounce_error) break;
   }
+  return true;
+}
+
+/// After the relaxing pass.
+void end_substep(const SolverIsland& island, double hs, bool bounced) {
+  sum_joints(island, hs, JointPass::relaxing);
+  if (bounced || limit_bounces(island)) recall_impulses(island);
 }
 
 /// All `n` sub-steps of one island.
@@ -184,7 +193,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   prepare_rows(c, island, hs);
   prepare_joints(c, island, hs);
   for (int i = 0; i < n && !stop_requested(); ++i) {
-    if (i > 0) sum_joints(island, hs, JointPass::relaxing);
+    if (i > 0) end_substep(island, hs, false);
     integrate_velocities(c, island, kick);
     warm_start(island);
     warm_start_joints(island, hs, JointPass::moving);
@@ -201,8 +210,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (island.joints.empty()) solve_friction_again(island);
     sum_impulses(island);
   }
-  bounce(c, island, hs, joint_soft);
-  sum_joints(island, hs, JointPass::relaxing);
+  end_substep(island, hs, bounce(c, island, hs, joint_soft));
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};
 }
