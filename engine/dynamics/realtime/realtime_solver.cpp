@@ -206,6 +206,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     refresh_joints(c, island, hs);
     warm_start_joints(island, hs, JointPass::relaxing);
     solve_joints(island, hs, joint_soft, JointPass::relaxing);
+    if (!island.joints.empty()) solve_normals(island, hs, push_out);
     solve_rows(island, hs, push_out, false);
     if (island.joints.empty()) solve_friction_again(island);
     sum_impulses(island);

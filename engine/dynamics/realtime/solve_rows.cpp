@@ -117,6 +117,29 @@ void warm_start(const SolverIsland& island) {
   }
 }
 
+namespace {
+
+void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,
+                       double push_out_speed, bool bias) {
+  // Round surfaces keep their distance while they turn: only the core inside carries anchors.
+  const double rolled = row.rounding_a * row.n.dot(pair.a.turn * row.n) +
+                        row.rounding_b * row.n.dot(pair.b.turn * row.n);
+  for (uint32_t i = row.first; i < row.first + row.count; ++i)
+    solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
+}
+
+}  // namespace
+
+void solve_normals(const SolverIsland& island, double hs, double push_out_speed) {
+  for (const ContactRow& row : island.rows) {
+    SolverBody& a = island.bodies[row.a];
+    SolverBody& b = island.bodies[row.b];
+    Pair pair(a, b);
+    solve_all_normals(island, row, pair, hs, push_out_speed, false);
+    pair.write(a, b);
+  }
+}
+
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias) {
   for (ContactRow& row : island.rows) {
     SolverBody& a = island.bodies[row.a];
@@ -125,12 +148,7 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
     // Friction first: what must not penetrate has the last word.
     solve_all_friction(island, row, pair);
     if (row.resists_turning && bias) solve_turning(island, row, pair);
-    // Round surfaces keep their distance while they turn: only the core inside carries anchors.
-    const double rolled =
-        row.rounding_a * row.n.dot(a.turn * row.n) + row.rounding_b * row.n.dot(b.turn * row.n);
-    for (uint32_t i = row.first; i < row.first + row.count; ++i) {
-      solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
-    }
+    solve_all_normals(island, row, pair, hs, push_out_speed, bias);
     // With what the sub-step ends: torques bounded by the load that the points have now. That of
     // the sweep with bias lacks what a body sinks in by, which would be lost for good.
     if (row.resists_turning && !bias) solve_turning(island, row, pair);

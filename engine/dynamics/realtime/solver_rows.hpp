@@ -130,8 +130,11 @@ void warm_start(const SolverIsland& island);
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Sliding friction once more, bounded by the normal impulses with which the sub-step ends. Those
 /// of the sweep with bias lack what a body sinks in by, and friction would lose as much for good.
-/// Not beside joints, which must have the last word: it would pull them apart.
+/// Not beside joints: what comes after their relaxing pass pulls them apart.
 void solve_friction_again(const SolverIsland& island);
+/// Beside joints instead, before the sweep without bias: normal impulses as the sub-step ends with
+/// them, as bounds of the friction in that sweep.
+void solve_normals(const SolverIsland& island, double hs, double push_out_speed);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
