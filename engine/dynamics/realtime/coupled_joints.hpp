@@ -28,6 +28,7 @@ struct CouplingBlock {
   struct {
     double moving = 0, relaxing = 0;
   } before_blow;
+  double before_bounces = 0;
 };
 
 /// Joints of an island that couplings tie together, directly or over each other, and these

@@ -36,8 +36,10 @@ struct JointBlock {
   Values relaxing{};  ///< impulses that then put velocities right
   struct {
     Values moving{}, relaxing{};
-  } before_blow;  ///< see remember_impulses
-  JointPush sum;  ///< of the sub-steps so far
+  } before_blow;            ///< see remember_impulses
+  Values speeds{};          ///< of kept rows before a pass, of ticks in which something bounces
+  Values before_bounces{};  ///< `relaxing` before contacts bounced
+  JointPush sum;            ///< of the sub-steps so far
 };
 
 }  // namespace tumble

@@ -283,12 +283,19 @@ bool any_drive(const SolverIsland& island, const F& is) {
   });
 }
 
-/// f(impulses, those before the blow) of joints and of couplings.
+/// f(block) of joints and of couplings.
 template <class F>
-void for_impulses(const SolverIsland& island, const F& f) {
-  for (JointBlock& joint : island.joints) f(joint, joint.before_blow);
+void for_blocks(const SolverIsland& island, const F& f) {
+  for (JointBlock& joint : island.joints) f(joint);
   for (CoupledJoints& coupled : island.coupled)
-    for (CouplingBlock& c : coupled.couplings) f(c, c.before_blow);
+    for (CouplingBlock& c : coupled.couplings) f(c);
+}
+
+void scale(double& now, double before, double share) {
+  now = before + share * (now - before);
+}
+void scale(JointBlock::Values& now, const JointBlock::Values& before, double share) {
+  for (size_t i = 0; i < now.size(); ++i) scale(now[i], before[i], share);
 }
 
 }  // namespace
@@ -301,13 +308,38 @@ bool limit_bounces(const SolverIsland& island) {
 }
 
 void remember_impulses(const SolverIsland& island) {
-  for_impulses(island, [](const auto& now, auto& before) { before = {now.moving, now.relaxing}; });
+  for_blocks(island, [](auto& block) { block.before_blow = {block.moving, block.relaxing}; });
 }
 void recall_impulses(const SolverIsland& island) {
-  for_impulses(island, [](auto& now, const auto& before) {
-    now.moving = before.moving;
-    now.relaxing = before.relaxing;
+  for_blocks(island, [](auto& block) {
+    block.moving = block.before_blow.moving;
+    block.relaxing = block.before_blow.relaxing;
   });
+}
+
+void note_joint_speeds(const SolverIsland& island) {
+  for (JointBlock& joint : island.joints)
+    for (uint32_t i = 0; i < joint.kept; ++i)
+      joint.speeds[i] =
+          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]);
+}
+double taken_by_joints(const SolverIsland& island, JointPass pass) {
+  double taken = 0;
+  for (const JointBlock& joint : island.joints) {
+    const Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
+    for (uint32_t i = 0; i < joint.kept; ++i)
+      taken -= 0.5 * impulse[i] *
+               (joint.speeds[i] +
+                line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]));
+  }
+  return taken;
+}
+
+void remember_relaxing(const SolverIsland& island) {
+  for_blocks(island, [](auto& block) { block.before_bounces = block.relaxing; });
+}
+void scale_bounces(const SolverIsland& island, double share) {
+  for_blocks(island, [&](auto& block) { scale(block.relaxing, block.before_bounces, share); });
 }
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,

@@ -51,6 +51,14 @@ bool limit_bounces(const SolverIsland& island);
 void remember_impulses(const SolverIsland& island);
 void recall_impulses(const SolverIsland& island);
 
+/// As note_speeds and taken_by_contacts, of the kept rows: what the other rows of an island leave
+/// to them.
+void note_joint_speeds(const SolverIsland& island);
+double taken_by_joints(const SolverIsland& island, JointPass pass);
+/// Before contacts bounce, and to leave no more than this share of what joints gave to that.
+void remember_relaxing(const SolverIsland& island);
+void scale_bounces(const SolverIsland& island, double share);
+
 /// Adds the impulses of a pass to JointBlock::sum, by the rows that they went along.
 void sum_joints(const SolverIsland& island, double hs, JointPass pass);
 /// How stiff joints are for sub-steps of `hs`.
