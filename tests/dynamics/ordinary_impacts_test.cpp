@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <hwy/targets.h>
 
 using namespace tumble;
@@ -45,6 +46,22 @@ struct BundledWorld : JointWorld {
     d.velocity = velocity;
     return add(d);
   }
+  /// The bodies from `first` on turn as one about the hinge of that one.
+  void turn(uint32_t first, double rate) {
+    const double hinge = bodies[first].pose.x.x() - 0.5;
+    for (uint32_t k = first; k < bodies.size(); ++k) {
+      bodies[k].omega = {0, 0, rate};
+      bodies[k].v = {0, rate * (bodies[k].pose.x.x() - hinge), 0};
+    }
+  }
+  /// Hard limits of a hinge.
+  void limit(size_t joint, double lower, double upper, double restitution) {
+    JointDrives drives;
+    drives[0].limits.lower = lower;
+    drives[0].limits.upper = upper;
+    drives[0].limits.restitution = restitution;
+    joints[joint].drives = std::make_shared<JointDrives>(drives);
+  }
   /// Until the velocity of a body has changed.
   void run_until_hit(uint32_t slot) {
     const Vec3 v = bodies[slot].v;
@@ -70,6 +87,21 @@ std::array<double, 2> rates_by(int count, double x, double about_hinge) {
 double yield_of(int count, double x, double about_hinge) {
   const auto [first, last] = rates_by(count, x, about_hinge);
   return count == 1 ? x * last : first + x * last;
+}
+
+/// Of rods in line, for their rates.
+Eigen::MatrixXd mass_matrix(int count) {
+  Eigen::MatrixXd m(count, count);
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < count; ++k)
+      m(i, k) = i == k ? about_hinge + (count - 1 - i) : 0.5 + (count - 1 - std::max(i, k));
+  return m;
+}
+/// Rates after those of a straight row of rods, all `rate`, met a limit of the first hinge: an
+/// impulsive moment on the first rod (Newton's law of impact).
+Eigen::VectorXd after_limit(int count, double rate, double e) {
+  const Eigen::VectorXd by_moment = mass_matrix(count).inverse().col(0);
+  return Eigen::VectorXd::Constant(count, rate) - (1 + e) * rate / by_moment[0] * by_moment;
 }
 
 /// Bits of places and velocities of some bodies after each tick.
@@ -213,24 +245,80 @@ TEST_CASE("a blow goes its way in one mechanism however long it takes in another
   CHECK(bits(false) == bits(true));
 }
 
+TEST_CASE("in an ordinary island a limit gives back its restitution, whatever hangs on the joint") {
+  constexpr double w0 = 2;
+  for (const int count : {1, 2, 8})
+    for (const double hz : {60.0, 240.0, 960.0})
+      for (const double e : {0.5, 1.0}) {
+        CAPTURE(count);
+        CAPTURE(hz);
+        CAPTURE(e);
+        BundledWorld w(hz);
+        w.rods(count, Vec3::Zero(), 0);
+        w.turn(0, w0);
+        w.limit(0, -no_bound, 0.17, e);
+        const auto rate = [&](int rod) { return w.bodies[size_t(rod)].omega.z(); };
+        for (int ticks = 0; rate(0) > 0 && ticks < hz; ++ticks) w.step();
+        const Eigen::VectorXd after = after_limit(count, w0, e);
+        // The rods bend at once: within the tick the rates change by the square of the rates.
+        const double within = 0.01 + (count == 1 ? 0 : count == 2 ? 8 : 20) / hz;
+        CHECK(std::fabs(rate(0) - after[0]) < within);
+        CHECK(std::fabs(rate(count - 1) - after[count - 1]) < within);
+        const double energy = w.kinetic_energy();
+        CHECK(energy == doctest::Approx(0.5 * after.dot(mass_matrix(count) * after)).epsilon(5e-3));
+        // It is over with the blow: nothing of it is given again.
+        for (int ticks = 0; ticks < 0.05 * hz; ++ticks) {
+          w.step();
+          CHECK(w.kinetic_energy() == doctest::Approx(energy).epsilon(5e-3));
+        }
+      }
+}
+
+TEST_CASE("in an ordinary island a limit is met as if the crowd about it were not there") {
+  // Chains of balls at rest hang on points of the rod on its axis, which do not move.
+  constexpr double w0 = 2;
+  for (const int chains : {0, 2})
+    for (const double e : {0.5, 1.0}) {
+      CAPTURE(chains);
+      CAPTURE(e);
+      BundledWorld w(240);
+      w.rods(1, Vec3::Zero(), 0);
+      w.turn(0, w0);
+      w.limit(0, -0.17, 0.17, e);
+      for (int chain = 0; chain < chains; ++chain) {
+        Vec3 joint(0, 0, chain == 0 ? 0.35 : -0.35);
+        const Vec3 along(-1, 0, 0);
+        for (int i = 0; i < 12; ++i, joint += 0.25 * along) {
+          const uint32_t slot = w.ball(joint + 0.125 * along, Vec3::Zero(), 0);
+          w.join(JointKind::spherical, i == 0 ? 0 : slot - 1, slot, {joint, Quat::Identity()});
+        }
+      }
+      const auto energy = [&] { return w.kinetic_energy() / (0.5 * about_hinge * w0 * w0); };
+      double before = w0;
+      int bounces = 0;
+      for (int ticks = 0; ticks < 240; ++ticks) {
+        w.step();
+        const double rate = w.bodies[0].omega.z();
+        if (rate * before < 0) {
+          ++bounces;
+          CHECK(rate / before == doctest::Approx(-e).epsilon(0.015));
+        }
+        before = rate;
+        CHECK(energy() < 1.01);
+      }
+      CHECK(bounces == (e == 1 ? 6 : 2));
+      CHECK(energy() > 0.95 * std::pow(e, 2 * bounces));
+    }
+}
+
 TEST_CASE("a limit gives back its blow in one mechanism however long that takes in another") {
   const auto bits = [](bool beside) {
     BundledWorld w;
-    const auto limit = [&](double upper) {
-      JointDrives drives;
-      drives[0].limits.upper = upper;
-      drives[0].limits.restitution = 0.8;
-      return std::make_shared<JointDrives>(drives);
-    };
     const auto swing = [&](int count, const Vec3& at, double upper) {
       const auto joint = w.joints.size();
-      const uint32_t first = w.rods(count, at, 0);
-      for (uint32_t k = first; k < w.bodies.size(); ++k) {
-        w.bodies[k].omega = {0, 0, 2};
-        w.bodies[k].v = {0, 2 * (w.bodies[k].pose.x.x() - at.x()), 0};
-      }
+      w.turn(w.rods(count, at, 0), 2);
       for (size_t k = joint; k < w.joints.size(); ++k)
-        w.joints[k].drives = limit(k == joint ? upper : 3);
+        w.limit(k, -no_bound, k == joint ? upper : 3, 0.8);
     };
     swing(2, Vec3::Zero(), 0.17);
     const auto end = uint32_t(w.bodies.size());

@@ -25,6 +25,10 @@ struct CouplingBlock {
   double error = 0, bias = 0;
   FollowedCoordinate x, y;
   double moving = 0, relaxing = 0;
+  struct {
+    double moving = 0, relaxing = 0;
+  } before_blow;
+  double before_bounces = 0;
 };
 
 /// Joints of an island that couplings tie together, directly or over each other, and these

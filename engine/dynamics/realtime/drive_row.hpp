@@ -49,7 +49,6 @@ struct DriveRow {
   /// A limit that bounces may be met in this sub-step. The speed of the impact is that of the whole
   /// mechanism, so the moving pass is solved without the limits first.
   bool nears_limit = false;
-  bool bounced = false;  ///< in the last relaxing pass: its impulse is no guess for the next
 
   // Of the sub-steps so far.
   double motor_impulse = 0, motor_work = 0, friction_work = 0, limit_work = 0;
@@ -63,10 +62,9 @@ struct DriveRow {
   /// After the moving pass; forces had acted for `kick` seconds before it.
   void end_moving(double hs, double kick);
   /// After the relaxing pass.
-  void end_relaxing(double hs) {
-    bounced = (bounce_lower > 0 || bounce_upper > 0);
-    t += hs;
-  }
+  void end_relaxing(double hs) { t += hs; }
+  /// Whether a limit gives back a blow in the relaxing pass.
+  bool bounces() const { return bounce_lower > 0 || bounce_upper > 0; }
   /// After either pass.
   void add_up();
 

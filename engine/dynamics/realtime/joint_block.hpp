@@ -34,7 +34,12 @@ struct JointBlock {
   std::array<Values, most> factor;
   Values moving{};    ///< impulses that move the bodies onto the joint
   Values relaxing{};  ///< impulses that then put velocities right
-  JointPush sum;      ///< of the sub-steps so far
+  struct {
+    Values moving{}, relaxing{};
+  } before_blow;            ///< see remember_impulses
+  Values speeds{};          ///< of kept rows before a pass, of ticks in which something bounces
+  Values before_bounces{};  ///< `relaxing` before contacts bounced
+  JointPush sum;            ///< of the sub-steps so far
 };
 
 }  // namespace tumble

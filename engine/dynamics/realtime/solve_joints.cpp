@@ -120,7 +120,6 @@ void start_drives(const SolverIsland& island, double hs, JointPass pass) {
                                joint.lines[joint.kept + k]);
       d.rate = d.v;
       d.set_law(pass, hs);
-      if (pass == JointPass::relaxing && d.bounced) joint.relaxing[joint.kept + k] = 0;
     }
   }
 }
@@ -235,9 +234,6 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
   warm_start_couplings(island, hs, pass);
 }
 
-namespace {
-
-/// The sweeps of a pass.
 void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
   for (int k = 0; k < island.joint_sweeps; ++k) {
@@ -255,7 +251,6 @@ void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffne
   }
 }
 
-/// The limits that the moving pass was solved without take part from here on.
 void put_limits(const SolverIsland& island, double hs) {
   for (const JointBlock& joint : island.joints) {
     const std::span<DriveRow> drives = drives_of(island, joint);
@@ -267,13 +262,11 @@ void put_limits(const SolverIsland& island, double hs) {
   }
 }
 
-/// The greatest change of a blow on a limit since this was asked last, as a share of it; 0 when
-/// none bounces.
 double blow_change(const SolverIsland& island) {
   double most = 0;
   for (const JointBlock& joint : island.joints)
     for (DriveRow& d : drives_of(island, joint)) {
-      if (!(d.bounce_lower > 0 || d.bounce_upper > 0)) continue;
+      if (!d.bounces()) continue;
       const double blow = d.shares[DriveRow::lower] + d.shares[DriveRow::upper];
       if (blow != d.blow) most = std::max(most, std::fabs(blow - d.blow) / std::fabs(blow));
       d.blow = blow;
@@ -281,41 +274,87 @@ double blow_change(const SolverIsland& island) {
   return most;
 }
 
-bool nears_limit(const SolverIsland& island) {
+namespace {
+
+template <class F>
+bool any_drive(const SolverIsland& island, const F& is) {
   return std::ranges::any_of(island.joints, [&](const JointBlock& joint) {
-    return std::ranges::any_of(drives_of(island, joint), &DriveRow::nears_limit);
+    return std::ranges::any_of(drives_of(island, joint), is);
   });
 }
 
+/// f(block) of joints and of couplings.
+template <class F>
+void for_blocks(const SolverIsland& island, const F& f) {
+  for (JointBlock& joint : island.joints) f(joint);
+  for (CoupledJoints& coupled : island.coupled)
+    for (CouplingBlock& c : coupled.couplings) f(c);
+}
+
+void scale(double& now, double before, double share) {
+  now = before + share * (now - before);
+}
+void scale(JointBlock::Values& now, const JointBlock::Values& before, double share) {
+  for (size_t i = 0; i < now.size(); ++i) scale(now[i], before[i], share);
+}
+
 }  // namespace
+
+bool nears_limit(const SolverIsland& island) {
+  return any_drive(island, &DriveRow::nears_limit);
+}
+bool limit_bounces(const SolverIsland& island) {
+  return any_drive(island, &DriveRow::bounces);
+}
+
+void remember_impulses(const SolverIsland& island) {
+  for_blocks(island, [](auto& block) { block.before_blow = {block.moving, block.relaxing}; });
+}
+void recall_impulses(const SolverIsland& island) {
+  for_blocks(island, [](auto& block) {
+    block.moving = block.before_blow.moving;
+    block.relaxing = block.before_blow.relaxing;
+  });
+}
+
+void note_joint_speeds(const SolverIsland& island) {
+  for (JointBlock& joint : island.joints)
+    for (uint32_t i = 0; i < joint.kept; ++i)
+      joint.speeds[i] =
+          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]);
+}
+double taken_by_joints(const SolverIsland& island, JointPass pass) {
+  double taken = 0;
+  for (const JointBlock& joint : island.joints) {
+    const Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
+    for (uint32_t i = 0; i < joint.kept; ++i)
+      taken -= 0.5 * impulse[i] *
+               (joint.speeds[i] +
+                line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]));
+  }
+  return taken;
+}
+
+void remember_relaxing(const SolverIsland& island) {
+  for_blocks(island, [](auto& block) { block.before_bounces = block.relaxing; });
+}
+void scale_bounces(const SolverIsland& island, double share) {
+  for_blocks(island, [&](auto& block) { scale(block.relaxing, block.before_bounces, share); });
+}
 
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
                   JointPass pass) {
   if (pass == JointPass::moving && nears_limit(island)) {
     sweep_joints(island, hs, stiffness, pass);
+    remember_impulses(island);
     put_limits(island, hs);
   }
   sweep_joints(island, hs, stiffness, pass);
   if (pass == JointPass::moving) return;
-  // A blow goes through the whole mechanism, and nothing is left of it in later sub-steps.
+  // A blow goes through the whole mechanism.
   for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
     if (!(blow_change(island) > tolerances::bounce_error)) return;
     sweep_joints(island, hs, stiffness, pass);
-  }
-}
-
-void relax_blow(const SolverIsland& island, double hs) {
-  std::vector<Values> before;
-  for (const JointBlock& joint : island.joints) before.push_back(joint.relaxing);
-  solve_joints(island, hs, joint_softness(hs), JointPass::relaxing);
-  for (size_t k = 0; k < island.joints.size(); ++k) {
-    JointBlock& joint = island.joints[k];
-    Values blow{};
-    for (uint32_t i = 0; i < joint.kept; ++i) {
-      blow[i] = joint.relaxing[i] - before[k][i];
-      joint.relaxing[i] = before[k][i];
-    }
-    joint.sum.add(push_of(joint, blow));
   }
 }
 
@@ -334,7 +373,7 @@ double store_joints(const SolverContext& c, const SolverIsland& island, double h
     for (const DriveRow& d : drives) {
       const size_t i = joint.kept + size_t(&d - drives.data()), k = joint.kept + d.coordinate;
       to.moving_force[k] = joint.moving[i] / hs;
-      to.relaxing_force[k] = d.bounced ? 0 : joint.relaxing[i] / hs;
+      to.relaxing_force[k] = joint.relaxing[i] / hs;
       to.value[d.coordinate] = d.value;
       to.motor_impulse[d.coordinate] += d.motor_impulse;
       joint.sum.motors += d.motor_work;

@@ -29,9 +29,36 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 /// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
 /// as factors of the soft step.
 void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
-/// The relaxing pass once more after a blow, whose impulses along what is kept count in the sums
-/// and are no part of the next tick's warm start.
-void relax_blow(const SolverIsland& island, double hs);
+
+// What solve_joints is made of, for islands of which only a part is in these rows.
+
+/// The sweeps alone.
+void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
+/// Whether a limit that bounces may be met: the moving pass is solved without such limits first.
+bool nears_limit(const SolverIsland& island);
+/// These limits take part from here on.
+void put_limits(const SolverIsland& island, double hs);
+/// The greatest change of a blow on a limit since this was asked last, as a share of it; 0 when
+/// none bounces.
+double blow_change(const SolverIsland& island);
+
+// Impulses of a sub-step in which there was a blow say nothing of the next one, which would give
+// it again: that one starts from those before.
+
+/// Whether a limit gave back a blow in the last relaxing pass; then impulses were remembered before
+/// the limit was met.
+bool limit_bounces(const SolverIsland& island);
+void remember_impulses(const SolverIsland& island);
+void recall_impulses(const SolverIsland& island);
+
+/// As note_speeds and taken_by_contacts, of the kept rows: what the other rows of an island leave
+/// to them.
+void note_joint_speeds(const SolverIsland& island);
+double taken_by_joints(const SolverIsland& island, JointPass pass);
+/// Before contacts bounce, and to leave no more than this share of what joints gave to that.
+void remember_relaxing(const SolverIsland& island);
+void scale_bounces(const SolverIsland& island, double share);
+
 /// Adds the impulses of a pass to JointBlock::sum, by the rows that they went along.
 void sum_joints(const SolverIsland& island, double hs, JointPass pass);
 /// How stiff joints are for sub-steps of `hs`.

@@ -33,6 +33,7 @@ struct SolverMotion {
   bool spherical = false;  ///< all moments of inertia are equal: no gyroscopic term
   bool spins = false;    ///< turns so far in a tick, or is so slender, that lever arms must follow
   bool jointed = false;  ///< held by a joint, which feels its inertia as it is
+  Vec3 v_before, w_before;  ///< before a blow
 };
 
 /// Whether a body turns so far in a tick of `h` seconds that lever arms must follow it.
@@ -91,6 +92,9 @@ struct PointRow {
   double tangent1_sum = 0, tangent2_sum = 0;
   double bounce = 0;   ///< separation speed that restitution asks for; 0 for none [m/s]
   double rebound = 0;  ///< impulse of restitution, part of normal_sum [N s]
+  // Beside joints, of points that bounce.
+  double speed_before = 0;   ///< normal speed before a pass, then before the blow [m/s]
+  double normal_before = 0;  ///< its normal impulse that is no part of the pass [N s]
 };
 
 /// The part of the scratch memory that belongs to one island.
@@ -130,8 +134,11 @@ void warm_start(const SolverIsland& island);
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Sliding friction once more, bounded by the normal impulses with which the sub-step ends. Those
 /// of the sweep with bias lack what a body sinks in by, and friction would lose as much for good.
-/// Not beside joints, which must have the last word: it would pull them apart.
+/// Not beside joints: what comes after their relaxing pass pulls them apart.
 void solve_friction_again(const SolverIsland& island);
+/// Beside joints instead, before the sweep without bias: normal impulses as the sub-step ends with
+/// them, as bounds of the friction in that sweep.
+void solve_normals(const SolverIsland& island, double hs, double push_out_speed);
 /// Adds the impulses of the sub-step to the sums of the tick.
 void sum_impulses(const SolverIsland& island);
 /// Bounces. Between spinning bodies none gives the pair more energy than it had before the tick:
@@ -139,6 +146,24 @@ void sum_impulses(const SolverIsland& island);
 /// The greatest change, as a share of the speed that was asked for; 0 when nothing bounced. Joints
 /// may take some of it away again: both are repeated in turn, which only then takes back anything.
 double apply_restitution(const SolverContext& context, const SolverIsland& island);
+
+// Of impulses P_i that act at once and change speeds along them from u_i to w_i each takes
+// -P_i (u_i + w_i) / 2 of the energy. Beside joints a blow gives back no more than the contacts
+// that bounce, and the joints that these shook, have taken in the tick: the approach was measured
+// before it, and in a mechanism a point may be slower when it comes to touch.
+
+bool bounces(const SolverIsland& island);
+/// Before a pass whose impulses are those of its points beyond `share` of what they have now, and
+/// before a blow.
+void note_speeds(const SolverIsland& island, double share);
+/// What the impulses since then took [J].
+double taken_by_contacts(const SolverIsland& island);
+void remember_velocities(const SolverIsland& island);
+/// The share of a blow since then that may stay where `taken` was taken [J].
+double bearable_share(const SolverIsland& island, double taken);
+/// Leaves this share of the blow to velocities and contacts.
+void scale_blow(const SolverIsland& island, double share);
+
 /// Writes the impulses back to the contacts; gives the greatest approach speed at a pressed point.
 double store_rows(const SolverContext& context, const SolverIsland& island, double hs);
 

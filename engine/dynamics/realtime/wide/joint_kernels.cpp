@@ -161,8 +161,7 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
   return c;
 }
 
-/// Which joints of a bundle a sweep is for. A blow counts in the sums and is no part of the next
-/// tick's warm start.
+/// Which joints of a bundle a sweep is for.
 enum class Swept { all, struck };
 
 template <size_t n, JointPass pass, Swept swept>
@@ -185,25 +184,21 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
     } else {
       c.x[k] = all(0) - c.x[k];
     }
-    if constexpr (swept == Swept::struck) {
+    if constexpr (swept == Swept::struck)
       c.x[k] = hn::IfThenElseZero(hn::Gt(load(j.struck, lane), all(0)), c.x[k]);
-    } else {
-      store(old + c.x[k], impulse, lane);
-    }
+    store(old + c.x[k], impulse, lane);
   }
   const V P{c.x[0], c.x[1], c.x[2]};
   if constexpr (n == 5) {
     const V T = moment(*h, lane, c.x[3], c.x[4]);
     ends.push(P, &T);
-    if constexpr (swept == Swept::struck) add_push(j, lane, P, &T);
   } else {
     ends.push(P, nullptr);
-    if constexpr (swept == Swept::struck) add_push(j, lane, P, nullptr);
   }
   ends.write(j, lane);
 }
 
-template <JointPass pass, Swept swept = Swept::all>
+template <JointPass pass, Swept swept>
 HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness& soft) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
@@ -221,14 +216,18 @@ HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness
 
 void SolveJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
   if (pass == JointPass::moving) {
-    sweep_joints<JointPass::moving>(rows, range, step.joint);
+    sweep_joints<JointPass::moving, Swept::all>(rows, range, step.joint);
   } else {
-    sweep_joints<JointPass::relaxing>(rows, range, step.joint);
+    sweep_joints<JointPass::relaxing, Swept::all>(rows, range, step.joint);
   }
 }
 
-void RelaxStruckJoints(WideRows& rows, WideRange range) {
-  sweep_joints<JointPass::relaxing, Swept::struck>(rows, range, {});
+void SolveStruckJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
+  if (pass == JointPass::moving) {
+    sweep_joints<JointPass::moving, Swept::struck>(rows, range, step.joint);
+  } else {
+    sweep_joints<JointPass::relaxing, Swept::struck>(rows, range, step.joint);
+  }
 }
 
 float JointResidual(WideRows& rows, WideRange range) {
@@ -257,7 +256,7 @@ namespace tumble {
 
 HWY_EXPORT(WarmStartJoints);
 HWY_EXPORT(SolveJoints);
-HWY_EXPORT(RelaxStruckJoints);
+HWY_EXPORT(SolveStruckJoints);
 HWY_EXPORT(SumJoints);
 HWY_EXPORT(JointResidual);
 
@@ -268,8 +267,9 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& st
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);
 }
-void wide_relax_struck_joints(WideRows& rows, WideRange joints) {
-  HWY_DYNAMIC_DISPATCH(RelaxStruckJoints)(rows, joints);
+void wide_solve_struck_joints(WideRows& rows, WideRange joints, const WideStep& step,
+                              JointPass pass) {
+  HWY_DYNAMIC_DISPATCH(SolveStruckJoints)(rows, joints, step, pass);
 }
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SumJoints)(rows, joints, pass);

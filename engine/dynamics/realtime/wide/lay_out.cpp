@@ -228,7 +228,8 @@ void WideIsland::add_memory(MemoryUse& use) const {
                              rows_.points, rows_.turnings, rows_.rebounds, rows_.blow_changes,
                              rest_rows_, rest_points_);
   use.contacts += colouring_.bytes();
-  use.joints += heap_bytes(bundled_, rows_.joints, rows_.hinges, joints_, drives_);
+  use.joints +=
+      heap_bytes(bundled_, rows_.joints, rows_.hinges, rows_.remembered, joints_, drives_);
 }
 
 }  // namespace tumble

@@ -72,11 +72,11 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
     for (int i = 0; i < c.settings->substeps && !stop_requested(); ++i) {
-      if (i > 0) sum_all_joints(crew, hs, JointPass::relaxing);
+      if (i > 0) end_substep(crew, hs);
       substep(c, crew, step, hs, i == 0);
     }
-    bounce(c, crew, hs);
-    sum_all_joints(crew, hs, JointPass::relaxing);
+    bounce(c, crew, step, hs);
+    end_substep(crew, hs);
     left = store(c, crew, hs);
   });
   return left;
@@ -93,15 +93,6 @@ void WideIsland::each_block(Crew& crew, uint32_t bodies, const F& f) {
 template <class F>
 void WideIsland::each_colour(Crew& crew, const F& f) {
   for (const WideRange& colour : colours_) each_share(crew, colour, f);
-}
-
-/// What the scalar rows do, between reading and writing the velocities of their bodies.
-template <class F>
-void WideIsland::with_rest(const F& f) {
-  if (rest_bodies_.empty()) return;
-  read_velocities();
-  f(rest());
-  write_velocities();
 }
 
 void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
@@ -154,11 +145,15 @@ void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPas
   sweep_bundled_joints(crew, [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
 }
 
-/// Island by island: in one of them a limit that is met may ask for more sweeps.
-void WideIsland::solve_rest_joints(double hs, JointPass pass) {
-  for (const Part& part : parts_)
-    if (part.joints.begin < part.joints.end)
-      solve_joints(rest_of(part), hs, joint_softness(hs), pass);
+/// Sweeps over all joints of the islands whose `change` is above `least`, and over no others.
+void WideIsland::solve_struck_joints(Crew& crew, const WideStep& step, double hs, JointPass pass,
+                                     double least) {
+  each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r, least); });
+  with_rest([&](const SolverIsland&) {
+    for (const Part& part : parts_)
+      if (part.change > least) sweep_joints(rest_of(part), hs, joint_softness(hs), pass);
+  });
+  sweep_bundled_joints(crew, [&](WideRange r) { wide_solve_struck_joints(rows_, r, step, pass); });
 }
 
 /// Forces over `h`, and the impulses of the sub-step before to start from.
@@ -185,8 +180,9 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   } else {
     start(c, crew, step, before);
   }
+  find_free_speeds(crew, step, hs);
   with_rest([&](const SolverIsland& rest) {
-    solve_rest_joints(hs, JointPass::moving);
+    sweep_joints(rest, hs, joint_softness(hs), JointPass::moving);
     solve_rows(rest, hs, push_out, true);
   });
   solve_bundled_joints(crew, step, JointPass::moving);
@@ -196,7 +192,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   if (after > 0) kick(crew, after);
   sum_all_joints(crew, hs, JointPass::moving);
   const auto relax_rest = [&](const SolverIsland& rest) {
-    solve_rest_joints(hs, JointPass::relaxing);
+    sweep_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
     solve_rows(rest, hs, push_out, false);
     sum_impulses(rest);
   };
@@ -215,16 +211,17 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     warm_start_bundled_joints(crew, step, JointPass::relaxing);
     with_rest(relax_rest);
     solve_bundled_joints(crew, step, JointPass::relaxing);
+    follow_limits(crew, step, hs);
   }
   each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
 }
 
-void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
+void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
   if (std::ranges::any_of(rows_.contacts, &WideContact::bounces)) {
     rows_.rebounds.assign(rows_.points.size(), {});
     rows_.blow_changes.assign(rows_.contacts.size(), {});
   }
-  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, hs);
+  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, step, hs);
   with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
   bounce_bundles(crew);
 }
@@ -232,33 +229,6 @@ void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
 void WideIsland::bounce_bundles(Crew& crew) {
   if (std::ranges::any_of(rows_.contacts, &WideContact::bounces))
     each_colour(crew, [&](WideRange r) { wide_bounce(rows_, r); });
-}
-
-/// Restitution and joints in turn, as in precise islands, for each island until its blow has gone
-/// through the mechanism.
-void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
-  for (Part& part : parts_) part.struck = true;
-  for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
-    for (Part& part : parts_) part.change = 0;
-    with_rest([&](const SolverIsland&) {
-      for (Part& part : parts_)
-        if (part.struck) part.change = apply_restitution(c, rest_of(part));
-    });
-    bounce_bundles(crew);
-    if (!read_blow_changes()) return;
-    relax_struck_joints(crew, hs);
-    settle_blows();
-  }
-}
-
-/// Joints of the islands in which the last turn of bounces changed something.
-void WideIsland::relax_struck_joints(Crew& crew, double hs) {
-  each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r); });
-  with_rest([&](const SolverIsland&) {
-    for (const Part& part : parts_)
-      if (part.change > 0) relax_blow(rest_of(part), hs);
-  });
-  sweep_bundled_joints(crew, [&](WideRange r) { wide_relax_struck_joints(rows_, r); });
 }
 
 SolveResiduals WideIsland::store(const SolverContext& c, Crew& crew, double hs) {

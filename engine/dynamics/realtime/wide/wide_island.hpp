@@ -54,9 +54,11 @@ class WideIsland {
   /// One of the islands: what of the rest is its own, and how a blow goes through it. A blow is
   /// followed for as long as it changes in this island, however long that takes in others.
   struct Part {
-    WideRange rows, joints;  ///< of the rest
-    double change = 0;       ///< the greatest of the last turn, as apply_restitution gives it
-    bool struck = false;     ///< its bounces have another turn
+    WideRange rows, joints;   ///< of the rest
+    double change = 0;        ///< of the last turn, as apply_restitution or blow_change gives it
+    bool struck = false;      ///< its bounces have another turn
+    bool remembered = false;  ///< impulses of its joints are, in this sub-step
+    bool blown = false;       ///< then there was a blow
   };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
@@ -81,27 +83,40 @@ class WideIsland {
   void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
                bool first);
   void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
-  void bounce(const SolverContext& context, Crew& crew, double hs);
-  void bounce_in_turn(const SolverContext& context, Crew& crew, double hs);
+  void find_free_speeds(Crew& crew, const WideStep& step, double hs);
+  void follow_limits(Crew& crew, const WideStep& step, double hs);
+  void solve_struck_joints(Crew& crew, const WideStep& step, double hs, JointPass pass,
+                           double least);
+  void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  void bounce_in_turn(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   void bounce_bundles(Crew& crew);
   bool read_blow_changes();
   void settle_blows();
-  void mark_struck(WideRange joints);
-  void relax_struck_joints(Crew& crew, double hs);
+  void mark_struck(WideRange joints, double least);
+  template <class Is, class F>
+  void for_impulses_of(const Is& is, const F& f);
+  template <class Is>
+  void remember(const Is& is);
+  void end_substep(Crew& crew, double hs);
   SolveResiduals store(const SolverContext& context, Crew& crew, double hs);
   template <class F>
   void each_block(Crew& crew, uint32_t bodies, const F& f);
   template <class F>
   void each_colour(Crew& crew, const F& f);
+  /// What the scalar rows do, between reading and writing the velocities of their bodies.
   template <class F>
-  void with_rest(const F& f);
+  void with_rest(const F& f) {
+    if (rest_bodies_.empty()) return;
+    read_velocities();
+    f(rest());
+    write_velocities();
+  }
   template <class F>
   void sweep_bundled_joints(Crew& crew, const F& f);
   void kick(Crew& crew, double h);
   void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   void sum_all_joints(Crew& crew, double hs, JointPass pass);
   void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
-  void solve_rest_joints(double hs, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
 

@@ -35,8 +35,9 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& st
 /// One sweep; all rows of a joint at once.
 void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
 /// One sweep of the relaxing pass over those that are struck. Its impulses go to the sums at once
-/// and are no part of the next tick's warm start.
-void wide_relax_struck_joints(WideRows& rows, WideRange joints);
+/// The same of those that are struck.
+void wide_solve_struck_joints(WideRows& rows, WideRange joints, const WideStep& step,
+                              JointPass pass);
 /// Adds the impulses of a pass to the sums; before the arms change.
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass);
 /// Greatest velocity left in a row [m/s, rad/s].

@@ -121,6 +121,12 @@ struct WideHinge {
   std::array<LaneFloats, 2> moving, relaxing;  ///< [N m s]
 };
 
+/// Impulses of a WideJoint and its WideHinge before a blow.
+struct WideRemembered {
+  LaneVec moving, relaxing;
+  std::array<LaneFloats, 2> turning_moving, turning_relaxing;
+};
+
 struct WideSoftness {
   float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
 };
@@ -143,6 +149,7 @@ struct WideRows {
   std::vector<WideTurning> turnings;
   std::vector<WideJoint> joints;  ///< by colour
   std::vector<WideHinge> hinges;
+  std::vector<WideRemembered> remembered;  ///< by joint, of ticks in which there is a blow
   // Of ticks in which something bounces.
   std::vector<LaneFloats> rebounds;  ///< by point: PointRow::rebound [N s]
   std::vector<LaneFloats>
