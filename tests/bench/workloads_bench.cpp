@@ -6,6 +6,7 @@
 // --threads is ours. Without --small every workload is followed by its small variant if MuJoCo can
 // hold that.
 #include "engine/scene/workloads/run.hpp"
+#include "engine/world/world.hpp"
 #include "tests/bench/contest.hpp"
 #include "tests/bench/workloads/peers.hpp"
 

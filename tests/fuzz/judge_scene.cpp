@@ -2,6 +2,7 @@
 
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>

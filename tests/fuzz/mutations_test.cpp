@@ -8,6 +8,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 #include "tests/fuzz/damaged.hpp"
 #include "tests/fuzz/judge_scene.hpp"
 #include "tests/scene/child_process.hpp"

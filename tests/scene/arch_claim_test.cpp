@@ -2,6 +2,7 @@
 // on it, and with vertical loads the thrust is the same in every joint), and limit analysis of
 // masonry (Heyman, "The stone skeleton", 1966): the least and the greatest thrust for which a line
 // of thrust lies within every joint, found here from the weights and the joints alone.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

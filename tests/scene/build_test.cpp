@@ -7,6 +7,7 @@
 #include "engine/scene/build/spring_limits.hpp"
 #include "engine/scene/check.hpp"
 #include "engine/scene/drop_in.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/shape_reference.hpp"
 

@@ -6,6 +6,7 @@
 #include "engine/scene/reader.hpp"
 #include "engine/scene/workloads/run.hpp"
 #include "engine/scene/workloads/workload.hpp"
+#include "engine/world/world.hpp"
 #include "tests/support/scale.hpp"
 
 #include <algorithm>

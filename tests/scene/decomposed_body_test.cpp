@@ -6,6 +6,7 @@
 #include "engine/scene/build/piece_cache.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -1,5 +1,6 @@
 // What scenes with emitters claim. References: counts by rate and life, and closed forms of free
 // flight.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Emitters and sinks in scenes: what is built, and faults with their line. References: closed forms
 // and counts written out here.
 #include "engine/scene/build.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 using namespace tumble;

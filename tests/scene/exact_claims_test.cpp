@@ -1,5 +1,6 @@
 // What the scenes of the event stepper claim, as numbers. References: closed forms of textbook
 // mechanics, computed here.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

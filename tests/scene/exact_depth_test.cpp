@@ -3,6 +3,7 @@
 // nothing of the stepper's contacts; besides, the world says so when it is not kept.
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 
 #include <filesystem>
 #include <string>

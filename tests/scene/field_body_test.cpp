@@ -6,6 +6,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // What scenes with fluids and grains claim. References: Archimedes' principle, Pascal's law, and
 // the run-out of columns of sand (Lube et al. 2004).
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "engine/math/time_course.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/writer.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 #include <doctest/doctest.h>

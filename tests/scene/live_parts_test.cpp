@@ -3,6 +3,7 @@
 #include "engine/scene/build/live_parts.hpp"
 
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 using namespace tumble;

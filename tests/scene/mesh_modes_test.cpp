@@ -11,6 +11,7 @@
 #include "engine/scene/resources.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -5,6 +5,7 @@
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 #include "tests/support/mesh_overlap.hpp"
 #include "tests/support/scale.hpp"
 

@@ -1,5 +1,6 @@
 // What scenes of particles claim. Reference: the cradle's closed form (what arrives leaves at the
 // other end, the height of the fall gives its speed).
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <cmath>

@@ -2,6 +2,7 @@
 // plane, integrated here on their own by the classical Runge-Kutta method with steps of 1/19200 s
 // (halving them changes the spin by less than 1e-9 rad/s in six seconds).
 #include "engine/math/rotation.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 #include "tests/support/dense3.hpp"
 

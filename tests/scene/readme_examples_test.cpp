@@ -2,6 +2,7 @@
 // stand in fenced blocks of JSON; parts of scenes, `"key": {...}` in the text, are put into a scene
 // in which the names that they use exist. A key that this test does not know fails it.
 #include "engine/scene/build.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // What the shipped scenes claim to show, as numbers. References: statics (an arch and a card house
 // within their friction cones stand still), Coulomb's law (slides if mu < tan of the slope), the
 // geometry of interlocked rings, conservation of energy, and "nothing passes a closed wall".
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

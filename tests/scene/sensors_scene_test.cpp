@@ -2,6 +2,7 @@
 // written out here.
 #include "engine/scene/build.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 
 #include <cmath>
 #include <string>

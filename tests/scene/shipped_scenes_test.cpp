@@ -4,6 +4,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/writer.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/scale.hpp"
 

@@ -1,6 +1,7 @@
 // The scene slider_crank_spatial. References: the time to the crank's angle by the energy of its
 // one freedom, integrated by Simpson's rule; its closed form for where the slider is; the figures
 // of the IFToMM library of benchmarks.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 #include "tests/support/spatial_slider_crank.hpp"
 

@@ -2,6 +2,7 @@
 // Newton's method with a line search from the springs' lengths alone (force left below 1e-11 N);
 // the balance of the books.
 #include "engine/math/dense.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 #include "tests/support/dense.hpp"
 

@@ -1,5 +1,6 @@
 // What the scene with smoke rings claims. Reference: Kelvin's speed of a vortex ring, whose decay
 // slows it down, and how fast fluid turns about its core.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

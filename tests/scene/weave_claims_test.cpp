@@ -1,5 +1,6 @@
 // The scenes cloth_over_sphere and rope_bridge. References: the ball's own radius, which no node
 // may enter; the sum of the bridge's weights, which its ropes carry at the posts; rest.
+#include "engine/world/world.hpp"
 #include "tests/scene/shipped_scene.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Damaged robot files: each is read, or refused with a file and a cause; what is read can be built
 // into a scene or is refused there. Reference: that nothing else happens.
 #include "engine/core/random.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/robots/robot_text.hpp"
 
 #include <iterator>

@@ -5,6 +5,7 @@
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/check.hpp"
 #include "engine/scene/writer.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/robots/robot_text.hpp"
 
 #include <numbers>

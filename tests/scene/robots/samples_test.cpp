@@ -2,6 +2,7 @@
 // reader, of both formats: masses, centres, tensors, places, axes, limits and springs, in its
 // world. Its numbers of URDF files are in double, so that both agree to rounding.
 #include "engine/scene/catalogue.hpp"
+#include "engine/world/world.hpp"
 #include "tests/scene/robots/robot_text.hpp"
 #include "tests/support/mujoco_reader.hpp"
 

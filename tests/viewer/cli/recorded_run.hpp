@@ -3,6 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/world/replay.hpp"
+#include "engine/world/world.hpp"
 
 #include <filesystem>
 #include <fstream>

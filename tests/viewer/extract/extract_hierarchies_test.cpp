@@ -2,6 +2,7 @@
 // built in the test.
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 #include "tests/support/ring_mesh.hpp"
 #include "tests/viewer/extract/frame_maker.hpp"
 #include "viewer/app/scenes/scene_look.hpp"

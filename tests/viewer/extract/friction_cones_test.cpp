@@ -5,6 +5,7 @@
 
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/render/extract.hpp"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/resources.hpp"
+#include "engine/world/world.hpp"
 #include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/render/extract.hpp"
 #include "viewer/render/labels.hpp"
