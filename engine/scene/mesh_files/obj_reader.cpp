@@ -1,5 +1,6 @@
 #include "engine/scene/mesh_files/polygon_file.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
