@@ -1,8 +1,7 @@
 // Which grains may touch. Reference: the definition, tried for every two of them.
-#include "engine/dynamics/grains/grain_pairs.hpp"
-
 #include "engine/core/random.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
+#include "tests/dynamics/grain_cloud.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -17,38 +16,21 @@ namespace {
 constexpr double part = 1.0 / 120;  // [s]
 
 /// A cloud of grains of many sizes, some fast, all of one half of it asleep.
-struct Cloud {
-  HandlePool<ParticleSystemTag> ids;
-  std::vector<ParticleSystem> systems;
-  BodySet bodies;
-  RealtimeSettings settings;
-  Crew crew;
-  GrainField grains;
-
-  explicit Cloud(int threads) : crew(threads) {
-    ParticleSystemDef d;
-    d.name = "cloud";
-    d.grains = GrainDef{};
-    ids.allocate();
-    systems.push_back(make_particle_system(d));
+struct Cloud : test::GrainCloud {
+  explicit Cloud(int threads) : GrainCloud(threads) {
     Random random(11);
     const auto anywhere = [&](double most) {
       return Vec3(random.uniform(-most, most), random.uniform(-most, most),
                   random.uniform(-most, most));
     };
     for (int n = 0; n < 1500; ++n) {
-      ParticleDef p;
-      p.radius = random.uniform(0.004, 0.01);
-      p.mass = 0.01;
-      p.x = anywhere(0.1);
-      p.v = anywhere(n % 100 == 0 ? 2 : 0.1);
-      systems[0].add(p);
-      if (p.x.x() < 0)
-        systems[0].rest.back() = {Vec3::Zero(), std::numeric_limits<double>::infinity()};
+      const double radius = random.uniform(0.004, 0.01);
+      const Vec3 x = anywhere(0.1), v = anywhere(n % 100 == 0 ? 2 : 0.1);
+      GrainRest& rest = add(x, v, radius);
+      if (x.x() < 0) rest = {Vec3::Zero(), std::numeric_limits<double>::infinity()};
     }
-    REQUIRE(grains.gather(tick()).ok());
+    gather();
   }
-  GrainTick tick() { return {systems, ids, bodies, {}, {0, -9.81, 0}, 1.0 / 60, settings, &crew}; }
   double distance(size_t i, size_t j) const {
     return (grains.points[j].x - grains.points[i].x).norm();
   }

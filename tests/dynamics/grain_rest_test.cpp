@@ -2,8 +2,10 @@
 #include "engine/dynamics/grains/grain_rest.hpp"
 
 #include "engine/core/random.hpp"
+#include "tests/dynamics/grain_cloud.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -13,44 +15,28 @@ namespace {
 
 /// Grains at rest anywhere, slow for up to twice the time of sleep, a tenth of them asleep; any two
 /// that are near touch, of which two thirds press.
-struct RestingCloud {
-  HandlePool<ParticleSystemTag> ids;
-  std::vector<ParticleSystem> systems;
-  BodySet bodies;
-  RealtimeSettings settings;
-  Crew crew;
-  GrainField grains;
+struct RestingCloud : test::GrainCloud {
   GrainPairs finder;
   GrainPairList pairs;
   std::vector<GrainForces> forces;
   std::vector<Vec3> start;
 
-  explicit RestingCloud(int threads) : crew(threads) {
-    ParticleSystemDef d;
-    d.name = "cloud";
-    d.grains = GrainDef{};
-    ids.allocate();
-    systems.push_back(make_particle_system(d));
+  explicit RestingCloud(int threads) : GrainCloud(threads) {
     Random random(3);
     for (int n = 0; n < 3000; ++n) {
-      ParticleDef p;
-      p.radius = random.uniform(0.008, 0.01);
-      p.mass = 0.01;
-      p.x = Vec3(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
-      systems[0].add(p);
-      GrainRest& rest = systems[0].rest.back();
+      const double radius = random.uniform(0.008, 0.01);
+      const Vec3 x(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+      GrainRest& rest = add(x, Vec3::Zero(), radius);
       rest.time = random.uniform(0.4, 2) * settings.sleep_time;
       if (random.uniform(0, 1) < 0.1) rest.time = std::numeric_limits<double>::infinity();
       if (random.uniform(0, 1) < 0.02) rest.time = 0;
     }
-    REQUIRE(grains.gather(tick()).ok());
+    gather();
     REQUIRE(finder.find(tick(), grains, h, pairs).ok());
     forces.resize(pairs.all.size());
     for (GrainForces& f : forces) f.push = random.uniform(0, 3) < 2 ? 1 : 0;
     for (const GrainPoint& p : grains.points) start.push_back(p.x);
   }
-  static constexpr double h = 1.0 / 60;  // [s]
-  GrainTick tick() { return {systems, ids, bodies, {}, {0, -9.81, 0}, h, settings, &crew}; }
   double slow_for(size_t i) const {
     return systems[0].rest[grains.owner[i].index].time + (grains.asleep[i] ? 0 : h);
   }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -97,41 +99,18 @@ const Option& Option::excludes(const Option& other) const {
   return *this;
 }
 
-Option Options::value(const std::string& name, std::string& variable, const std::string& doc) {
+template <class T>
+Option Options::value(const std::string& name, T& variable, const std::string& doc) {
   return Option(app_.add_option(name, variable, doc));
 }
-
-Option Options::value(const std::string& name, double& variable, const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, int& variable, const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, uint64_t& variable, const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, std::optional<double>& variable,
-                      const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, std::optional<int>& variable,
-                      const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, std::optional<uint64_t>& variable,
-                      const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
-
-Option Options::value(const std::string& name, std::vector<std::string>& variable,
-                      const std::string& doc) {
-  return Option(app_.add_option(name, variable, doc));
-}
+template Option Options::value(const std::string&, std::string&, const std::string&);
+template Option Options::value(const std::string&, double&, const std::string&);
+template Option Options::value(const std::string&, int&, const std::string&);
+template Option Options::value(const std::string&, uint64_t&, const std::string&);
+template Option Options::value(const std::string&, std::optional<double>&, const std::string&);
+template Option Options::value(const std::string&, std::optional<int>&, const std::string&);
+template Option Options::value(const std::string&, std::optional<uint64_t>&, const std::string&);
+template Option Options::value(const std::string&, std::vector<std::string>&, const std::string&);
 
 Option Options::flag(const std::string& name, bool& variable, const std::string& doc) {
   return Option(app_.add_flag(name, variable, doc));

@@ -1,7 +1,4 @@
 #pragma once
-#include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,15 +39,10 @@ class Options {
  public:
   explicit Options(CLI::App& app) : app_(app) {}
 
-  Option value(const std::string& name, std::string& variable, const std::string& doc = {});
-  Option value(const std::string& name, double& variable, const std::string& doc);
-  Option value(const std::string& name, int& variable, const std::string& doc);
-  Option value(const std::string& name, uint64_t& variable, const std::string& doc);
-  Option value(const std::string& name, std::optional<double>& variable, const std::string& doc);
-  Option value(const std::string& name, std::optional<int>& variable, const std::string& doc);
-  Option value(const std::string& name, std::optional<uint64_t>& variable, const std::string& doc);
-  /// May be given more than once.
-  Option value(const std::string& name, std::vector<std::string>& variable, const std::string& doc);
+  /// T: std::string, double, int, uint64_t, an optional one of the last three, or a vector of
+  /// strings, which may be given more than once.
+  template <class T>
+  Option value(const std::string& name, T& variable, const std::string& doc = {});
   Option flag(const std::string& name, bool& variable, const std::string& doc);
   /// With a value of its own after "=", e.g. --hash=60; "--hash{final}" says what stands for none.
   Option flag(const std::string& name, std::string& variable, const std::string& doc);
