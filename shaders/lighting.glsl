@@ -14,8 +14,8 @@ vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
   float inv_d = inversesqrt(d2);
   vec3 v = place.to_eye * inv_d;
   vec3 l = to_sun.xyz;
-  float ndl = max(dot(n, l), 0.0);
-  float ndv = max(dot(n, v), 0.0);
+  float nl = dot(n, l), nv = dot(n, v), lv = dot(l, v);
+  float ndl = max(nl, 0.0), ndv = max(nv, 0.0);
 #ifdef FINE
   float lit = ndl * sun_visibility(place.in_shadow);
   float shade = contact_shade(place.on_ground.xy, place.on_ground.z, 0.5 - 0.5 * n.y);
@@ -25,24 +25,24 @@ vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
 #endif
 
   // GGX with Schlick's Fresnel and the visibility term of Karis (SIGGRAPH 2013).
-  vec3 h = normalize(l + v);
-  float ndh = max(dot(n, h), 0.0), vdh = max(dot(v, h), 0.0);
+  // The half vector is (l + v) / |l + v|, and |l + v|^2 = 2 + 2 l.v.
+  float by_h = inversesqrt(max(2.0 + 2.0 * lv, 1e-6));
+  float ndh = max((nl + nv) * by_h, 0.0), vdh = (1.0 + lv) * by_h;
   float a = look.x * look.x, a2 = a * a;
   float q = ndh * ndh * (a2 - 1.0) + 1.0;
   float k = 0.5 * a;
-  float vis = 0.25 / ((ndl * (1.0 - k) + k) * (ndv * (1.0 - k) + k) + 1e-4);
+  float by_vis = 4.0 * ((ndl * (1.0 - k) + k) * (ndv * (1.0 - k) + k) + 1e-4);
   float f1 = 1.0 - vdh, f2 = f1 * f1;
   vec3 f0 = mix(vec3(0.04), base, look.y);
   vec3 fresnel = f0 + (1.0 - f0) * (f2 * f2 * f1);
-  vec3 specular = fresnel * min(a2 / (q * q + 1e-6) * vis, 8.0);
+  vec3 specular = fresnel * min(a2 / ((q * q + 1e-6) * by_vis), 8.0);
 
   // The sky mirrored at grazing angles: the rim that lifts bodies off the background.
-  vec3 r = reflect(-v, n);
   float e1 = 1.0 - ndv, e2 = e1 * e1;
   vec3 rim = f0 + (max(vec3(1.0 - look.x), f0) - f0) * (e2 * e2 * e1);
   // Metals have nothing but mirrored light: the bright sky around the sun keeps them from being dull.
-  float glow = max(dot(r, l), 0.0);
-  vec3 mirrored = sky_light(r.y) * (1.0 + look.y) + (0.5 * look.y * glow * glow) * sun_colour.rgb;
+  float glow = max(2.0 * nv * nl - lv, 0.0);
+  vec3 mirrored = sky_light(2.0 * nv * n.y - v.y) * (1.0 + look.y) + (0.5 * look.y * glow * glow) * sun_colour.rgb;
   vec3 diffuse = base * (1.0 - look.y);
   vec3 radiance = (diffuse + specular) * lit * sun_colour.rgb +
                   (diffuse * sky_light(n.y) + rim * mirrored) * shade + base * look.z;
