@@ -2,6 +2,7 @@
 
 #include "engine/core/hash.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -14,6 +15,15 @@ constexpr size_t most_faults = 100;
 
 size_t texel_bytes(TextureFormat f) {
   return f == TextureFormat::r8 || f == TextureFormat::r8_linear_filter ? 1 : 4;
+}
+
+bool lies_within(const ScissorRect& part, const TargetDesc& d) {
+  return part.x >= 0 && part.y >= 0 && part.width >= 1 && part.height >= 1 &&
+         part.x + part.width <= d.width && part.y + part.height <= d.height;
+}
+bool all_lie_within(std::span<const ScissorRect> parts, const TargetDesc& d) {
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const ScissorRect& p) { return lies_within(p, d); });
 }
 
 uint64_t pipeline_hash(const PipelineDesc& d) {
@@ -176,8 +186,9 @@ bool DeviceLedger::begin_pass(const PassDesc& pass) {
   pass_content_ = hash_bytes(shape, sizeof shape, all ? 1 : t->held);
   if (averaged) {
     mix(averaged->desc.samples);
-    mix(pass.averaged_area);
-    pass_content_ = hash_bytes(&pass.averaged_area, sizeof pass.averaged_area, pass_content_);
+    const auto parts = std::as_bytes(std::span(pass.averaged_parts));
+    mix(parts.data(), parts.size());
+    pass_content_ = hash_bytes(parts, pass_content_);
     pass_content_ = hash_bytes(&averaged->held, sizeof averaged->held, pass_content_);
   }
   if (pass.clear_colour)
@@ -194,7 +205,6 @@ bool DeviceLedger::end_pass() {
 }
 
 bool DeviceLedger::check_average(const PassDesc& pass, const Target* from, const Target* to) {
-  const ScissorRect& area = pass.averaged_area;
   const char* wrong = nullptr;
   if (!from)
     wrong = "a target that does not exist";
@@ -204,9 +214,8 @@ bool DeviceLedger::check_average(const PassDesc& pass, const Target* from, const
     wrong = "a target of another size";
   else if (from->desc.colour == ColourAttachment::none || !to->colour)
     wrong = "a target without colour";
-  else if (area.x < 0 || area.y < 0 || area.width < 1 || area.height < 1 ||
-           area.x + area.width > to->desc.width || area.y + area.height > to->desc.height)
-    wrong = "an area outside the target";
+  else if (pass.averaged_parts.empty() || !all_lie_within(pass.averaged_parts, to->desc))
+    wrong = "no part, or one outside the target";
   if (wrong) fault(std::string("begin_pass with the average of ") + wrong);
   return !wrong;
 }
@@ -235,7 +244,7 @@ bool DeviceLedger::resolve(TargetId from, TargetId to) {
   return true;
 }
 
-bool DeviceLedger::resolve_depth(TargetId from, TargetId to) {
+bool DeviceLedger::resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) {
   const Target* a = targets_.find(from);
   Target* b = targets_.find(to);
   if (!check_resolve(a, b)) return false;
@@ -243,7 +252,12 @@ bool DeviceLedger::resolve_depth(TargetId from, TargetId to) {
     fault("resolve of depth between targets of which one has none");
     return false;
   }
-  settle(b->held_depth, a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
+  if (!all_lie_within(parts, b->desc)) {
+    fault("resolve of depth in a part outside the target");
+    return false;
+  }
+  settle(b->held_depth,
+         a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
   return true;
 }
 

@@ -107,7 +107,7 @@ class DeviceLedger {
   bool draw(const DrawCall& call);
   bool end_pass();
   bool resolve(TargetId from, TargetId to);
-  bool resolve_depth(TargetId from, TargetId to);
+  bool resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts);
   /// Whether what the last pass or resolve gives was in its target already.
   bool kept() const { return kept_; }
   /// Nobody knows any more what is in the targets.

@@ -3,12 +3,17 @@
 #include "viewer/render/frame_setup.hpp"
 #include "viewer/render/render_scene.hpp"
 
-#include <optional>
+#include <vector>
 
 namespace tumble {
 
-/// The least rectangle of pixels that holds all bodies and particles of the scene, by their boxes:
-/// what lies outside is ground and sky. Nothing where none is in the picture.
-std::optional<ScissorRect> drawn_area(const RenderScene& scene, const ViewSetup& view);
+/// Rectangles of pixels that hold all bodies and particles of the scene, by their boxes: what lies
+/// outside is ground and sky. Nothing where none is in the picture. They are few, without
+/// overlap, on a coarse raster (CellRaster).
+std::vector<ScissorRect> drawn_parts(const RenderScene& scene, const ViewSetup& view);
+
+/// The same of what reaches so far below the ground that one would see it if the ground hid
+/// nothing.
+std::vector<ScissorRect> sunken_parts(const RenderScene& scene, const ViewSetup& view);
 
 }  // namespace tumble

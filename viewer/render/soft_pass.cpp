@@ -34,11 +34,25 @@ std::array<float, 16> floats_of(const Mat4& m) {
   return out;
 }
 
-/// The least rectangle around two.
-ScissorRect around(const ScissorRect& a, const ScissorRect& b) {
-  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x,
-          std::max(a.y + a.height, b.y + b.height) - y};
+/// By how much closer the ground is than the far plane, near * far / distance: linear over the
+/// picture, as it is of any plane.
+std::array<float, 4> closeness_of_ground(const RenderScene& scene, const FrameSetup& setup) {
+  const double above = setup.view.eye.y() - double(scene.ground.height);
+  if (!scene.ground.visible || !(above > 0)) return {};
+  const GpuFrame& u = setup.uniforms;
+  const double by = -setup.camera.near * setup.camera.far / above;
+  const double ahead = double(u.view_forward[1]), across = double(u.view_right[1]),
+               up = double(u.view_up[1]);
+  return {float(by * (ahead - across - up)), float(by * 2 * across / setup.view.width),
+          float(by * 2 * up / setup.view.height), 0};
+}
+
+/// The texels that touch a part of a picture, in one of fewer that stand for `scale` pixels each.
+ScissorRect reduced(const ScissorRect& part, int height, int scale) {
+  const auto up = [scale](int pixels) { return (pixels + scale - 1) / scale; };
+  const int low = height - part.y - part.height, high = height - part.y;
+  const int x0 = part.x / scale, y0 = low / scale;
+  return {x0, up(height) - up(high), up(part.x + part.width) - x0, up(high) - y0};
 }
 
 }  // namespace
@@ -149,9 +163,10 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
 }
 
 void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
-                            const DrawCall& base) {
-  device_.resolve_depth(canvas, behind_);
+                            std::span<const ScissorRect> solid, const DrawCall& base) {
+  device_.resolve_depth(canvas, behind_, solid);
   soft_ = {};
+  soft_.ground = closeness_of_ground(scene, setup);
   soft_.depths = {float(setup.camera.near), float(setup.camera.far),
                   float(setup.view.pixels_per_radian), float(smoke_scale_)};
   cast_shade(scene, setup, canvas, base);
@@ -218,19 +233,27 @@ void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Q
 
 void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base) {
   const std::vector<GpuPuff> puffs = plan_smoke(scene, setup.view, veil_);
-  const bool shade = shade_area_ && scene.fluids.empty();
-  smoke_area_ = smoke_area(puffs, setup.view);
-  if (shade) smoke_area_ = smoke_area_ ? around(*smoke_area_, *shade_area_) : *shade_area_;
-  if (!smoke_area_) return;
+  SmokeShade shade;
+  shade.falls = shade_area_ && scene.fluids.empty();
+  if (shade.falls) {
+    const auto& sun = setup.uniforms.to_sun;
+    shade.to_sun = Vec3(double(sun[0]), double(sun[1]), double(sun[2]));
+    shade.lowest = setup.lowest;
+    shade.blur = 2 / (veil_.veil_from_world.row(0).head<3>().norm() * veil_.size);
+  }
+  smoke_parts_ = smoke_parts(scene, puffs, shade, setup.view);
+  if (smoke_parts_.empty()) return;
   soft_.veil[1] = float(smoke_scale_);
   device_.update_buffer(uniforms_, bytes_of(soft_));
   device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 1}, false});
   const TextureId depth = device_.depth_texture(behind_);
-  if (shade) {
-    DrawCall c = call(base, pipelines_.veil_layer, {depth, veil_texture_});
-    c.count = 3;
-    device_.draw(c);
-  }
+  if (shade.falls)
+    for (const ScissorRect& part : smoke_parts_) {
+      DrawCall c = call(base, pipelines_.veil_layer, {depth, veil_texture_});
+      c.count = 3;
+      c.scissor = reduced(part, height_, smoke_scale_);
+      device_.draw(c);
+    }
   if (!puffs.empty()) {
     device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
     DrawCall c = call(base, pipelines_.smoke, {puffs_, depth});
@@ -243,15 +266,16 @@ void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, con
 }
 
 void SoftPass::cover_with_smoke(const DrawCall& base) {
-  if (!smoke_area_) return;
-  DrawCall c = base;
-  c.pipeline = pipelines_.smoke_cover;
-  c.uniforms[1] = {uniforms_, 0, sizeof(GpuSoft)};
-  c.textures[0] = device_.colour_texture(smoke_);
-  c.textures[1] = device_.depth_texture(behind_);
-  c.count = 3;
-  c.scissor = *smoke_area_;
-  device_.draw(c);
+  for (const ScissorRect& part : smoke_parts_) {
+    DrawCall c = base;
+    c.pipeline = pipelines_.smoke_cover;
+    c.uniforms[1] = {uniforms_, 0, sizeof(GpuSoft)};
+    c.textures[0] = device_.colour_texture(smoke_);
+    c.textures[1] = device_.depth_texture(behind_);
+    c.count = 3;
+    c.scissor = part;
+    device_.draw(c);
+  }
 }
 
 }  // namespace tumble

@@ -25,10 +25,10 @@ class SoftPass {
   SoftPass& operator=(const SoftPass&) = delete;
 
   Status prepare(int width, int height, Quality quality);
-  /// Outside a pass. `base`: a call with the frame's constants and the shadow map as its first
-  /// texture.
+  /// Outside a pass. `solid`: parts of the canvas that hold all that has been drawn there but the
+  /// ground. `base`: a call with the frame's constants and the shadow map as its first texture.
   void draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
-                    const DrawCall& base);
+                    std::span<const ScissorRect> solid, const DrawCall& base);
   /// Likewise, after draw_liquids of the same picture.
   void draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base);
   /// Lays it over the canvas, within the pass that draws into that.
@@ -49,8 +49,8 @@ class SoftPass {
   int width_ = 0, height_ = 0;
   int smoke_scale_ = 1;  ///< pixels of the picture that one of the smoke's stands for, each way
   TargetId behind_, front_, other_, thickness_, smoke_;
-  /// Of the picture, that shade falls into, and that smoke is in; none: there is none.
-  std::optional<ScissorRect> shade_area_, smoke_area_;
+  std::optional<ScissorRect> shade_area_;  ///< of the picture, that shade can fall into
+  std::vector<ScissorRect> smoke_parts_;   ///< of the picture, that smoke and its shade are in
   TextureId veil_texture_, puffs_;
   BufferId balls_, puff_instances_, uniforms_;
   SunVeil veil_;

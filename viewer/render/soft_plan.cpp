@@ -1,6 +1,7 @@
 #include "viewer/render/soft_plan.hpp"
 
 #include "engine/math/det/det.hpp"
+#include "viewer/render/cell_raster.hpp"
 #include "viewer/render/sphere_plan.hpp"
 
 #include <algorithm>
@@ -27,6 +28,48 @@ ScissorRect scissor_of(float left, float right, float low, float high, int width
   const int y0 = pixel(low - 1, height - 1), y1 = pixel(high + 2, height);
   return {x0, height - y1, std::max(x1 - x0, 1), std::max(y1 - y0, 1)};
 }
+
+/// What a texel of smoke, of two pixels, and filters add to it [px].
+constexpr double smoke_rim = 5;
+/// Pieces of the way of a shade, each in a rectangle.
+constexpr int shade_pieces = 6;
+
+class SmokePartsFinder {
+ public:
+  explicit SmokePartsFinder(const ViewSetup& view)
+      : view_(view), raster_(view.width, view.height) {}
+
+  void add(const Vec3& centre, double radius) { add_between(centre, centre, radius); }
+  /// Down from the puff, away from the sun, to where nothing is any more.
+  void add_shade(const SmokePuff& puff, const SmokeShade& shade) {
+    const Vec3 x = puff.centre.cast<double>();
+    if (!(shade.to_sun.y() > 0)) return raster_.mark_all();  // it goes up, and has no end
+    const double radius = double(puff.radius) + shade.blur;
+    const double way = std::max(x.y() - shade.lowest, 0.0) / shade.to_sun.y();
+    for (int i = 0; i < shade_pieces; ++i)
+      add_between(x - way * i / shade_pieces * shade.to_sun,
+                  x - way * (i + 1) / shade_pieces * shade.to_sun, radius);
+  }
+  std::vector<ScissorRect> parts() const { return raster_.rectangles(); }
+
+ private:
+  /// All balls with centres on a line.
+  void add_between(const Vec3& a, const Vec3& b, double radius) {
+    if ((a - view_.eye).dot(view_.forward) < -radius &&
+        (b - view_.eye).dot(view_.forward) < -radius)
+      return;  // behind the eye
+    const ProjectedDisc p = disc_in_picture(view_, a, radius, true),
+                        q = disc_in_picture(view_, b, radius, true);
+    if (!(p.outline_radius > 0) || !(q.outline_radius > 0)) return raster_.mark_all();
+    raster_.mark({double(std::min(p.x - p.outline_radius, q.x - q.outline_radius)) - smoke_rim,
+                  double(std::min(p.y - p.outline_radius, q.y - q.outline_radius)) - smoke_rim},
+                 {double(std::max(p.x + p.outline_radius, q.x + q.outline_radius)) + smoke_rim,
+                  double(std::max(p.y + p.outline_radius, q.y + q.outline_radius)) + smoke_rim});
+  }
+
+  const ViewSetup& view_;
+  CellRaster raster_;
+};
 
 /// What discs cover of a picture.
 ScissorRect area_of(const std::vector<ProjectedDisc>& discs, int width, int height) {
@@ -130,18 +173,15 @@ std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
   return out;
 }
 
-std::optional<ScissorRect> smoke_area(const std::vector<GpuPuff>& puffs, const ViewSetup& view) {
-  if (puffs.empty()) return {};
-  std::vector<ProjectedDisc> discs;
-  for (const GpuPuff& p : puffs) {
-    const Vec3 centre(double(p.place[0]), double(p.place[1]), double(p.place[2]));
-    const auto r = double(p.place[3]);
-    // A puff around the eye has no outline.
-    if (!((centre - view.eye).squaredNorm() > 1.05 * r * r))
-      return ScissorRect{0, 0, view.width, view.height};
-    discs.push_back(disc_in_picture(view, centre, r, true));
-  }
-  return area_of(discs, view.width, view.height);
+std::vector<ScissorRect> smoke_parts(const RenderScene& scene, const std::vector<GpuPuff>& puffs,
+                                     const SmokeShade& shade, const ViewSetup& view) {
+  SmokePartsFinder finder(view);
+  for (const GpuPuff& p : puffs)
+    finder.add({double(p.place[0]), double(p.place[1]), double(p.place[2])}, double(p.place[3]));
+  if (shade.falls)
+    for (const SmokePuff& p : scene.smoke)
+      if (drawable(p)) finder.add_shade(p, shade);
+  return finder.parts();
 }
 
 }  // namespace tumble

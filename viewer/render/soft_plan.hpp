@@ -22,7 +22,16 @@ std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, 
 /// The puffs that the camera sees, far to near.
 std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
                                 const SunVeil& veil);
-/// The part of the picture that they are within; none where there are none.
-std::optional<ScissorRect> smoke_area(const std::vector<GpuPuff>& puffs, const ViewSetup& view);
+
+/// The shade that smoke casts alone.
+struct SmokeShade {
+  bool falls = false;
+  Vec3 to_sun = Vec3::UnitY();
+  double lowest = 0;  ///< nothing is below this height [m]
+  double blur = 0;    ///< what the raster of the veil adds to a puff's radius [m]
+};
+/// Parts of the picture that puffs and their shade are within, without overlap.
+std::vector<ScissorRect> smoke_parts(const RenderScene& scene, const std::vector<GpuPuff>& puffs,
+                                     const SmokeShade& shade, const ViewSetup& view);
 
 }  // namespace tumble

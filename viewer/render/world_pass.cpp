@@ -4,6 +4,8 @@
 #include "viewer/render/drawn_area.hpp"
 #include "viewer/render/frame_setup.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -107,6 +109,21 @@ void WorldPass::draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
   device_.draw(c);
 }
 
+/// Hides what is below the ground, which comes under the canvas later: by the same triangles, as
+/// bodies may lie in its plane.
+void WorldPass::draw_ground_depth(std::span<const ScissorRect> parts) {
+  if (parts.empty()) return;
+  int left = parts[0].x, right = left, top = parts[0].y, bottom = top;
+  for (const ScissorRect& p : parts) {
+    left = std::min(left, p.x);
+    right = std::max(right, p.x + p.width);
+    top = std::min(top, p.y);
+    bottom = std::max(bottom, p.y + p.height);
+  }
+  draw_ground(0, uint32_t(ground_plan_.triangles.size()), pipelines_.ground_depth,
+              ScissorRect{left, top, right - left, bottom - top});
+}
+
 void WorldPass::draw_bodies(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
   draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
@@ -165,23 +182,36 @@ void WorldPass::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, 
 
 /// What needs every sample: edges of bodies, and the ground too unless it comes `under` them later.
 /// Leaves its last pass open.
-void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup, bool under,
-                            bool smoke_last) {
+void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
+                            const CanvasParts& parts, const Layers& layers) {
   const TargetId canvas = targets_->canvas();
   const bool soft = scene.has_soft_matter();
   device_.begin_pass({canvas, nothing_drawn, true});
-  if (under && scene.ground.visible && canvas_area_)
-    draw_ground(0, uint32_t(ground_plan_.triangles.size()), pipelines_.ground_depth, canvas_area_);
+  if (layers.ground_under && scene.ground.visible) draw_ground_depth(parts.below_ground);
   draw_bodies(scene);
-  if (!under) draw_background(scene, setup, false);
+  if (!layers.ground_under) draw_background(scene, setup, false);
   if (soft) {
     device_.end_pass();
-    soft_.draw_liquids(scene, setup, canvas, call({}));
+    soft_.draw_liquids(scene, setup, canvas, parts.solid, call({}));
     soft_.draw_smoke(scene, setup, call({}));
     device_.begin_pass({canvas, {}, false});
   }
   draw_blended(scene);
-  if (soft && !smoke_last) soft_.cover_with_smoke(call({}));
+  if (soft && !layers.smoke_last) soft_.cover_with_smoke(call({}));
+}
+
+/// The canvas, its samples averaged, and what lies over and under all of it.
+void WorldPass::draw_averaged(const RenderScene& scene, const FrameSetup& setup,
+                              const CanvasParts& parts, const Layers& layers) {
+  PassDesc pass{targets_->averaged(), nothing_drawn, false};
+  if (!parts.drawn.empty()) {
+    pass.averages = targets_->canvas();
+    pass.averaged_parts = parts.drawn;
+  }
+  device_.begin_pass(pass);
+  if (scene.has_soft_matter() && layers.smoke_last) soft_.cover_with_smoke(call({}));
+  draw_background(scene, setup, true);
+  device_.end_pass();
 }
 
 /// From what was drawn to the picture, of one sample and with all its pixels.
@@ -211,29 +241,24 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   fill_buffers(setup, lines, points);
 
   draw_shadow_passes(scene, setup);
+  Layers layers;
   // Liquids look through to what is behind them.
-  const bool under =
+  layers.ground_under =
       targets.canvas() != targets.averaged() && scene.fluids.empty() && rim_is_hidden(scene, setup);
-  // Marks lie over smoke.
-  const bool smoke_last = under && lines.all.empty() && points.all.empty();
-  canvas_area_ = ScissorRect{0, 0, width, height};
-  if (smoke_last && !soft) canvas_area_ = drawn_area(scene, setup.view);
-  draw_canvas(scene, setup, under, smoke_last);
+  // Marks lie over smoke, and the ground hides some.
+  const bool marks = !lines.all.empty() || !points.all.empty();
+  layers.smoke_last = layers.ground_under && !marks;
+  const std::vector<ScissorRect> whole = {{0, 0, width, height}};
+  CanvasParts parts;
+  parts.solid = scene.fluids.empty() ? drawn_parts(scene, setup.view) : whole;
+  parts.drawn = marks ? whole : parts.solid;
+  parts.below_ground = marks ? whole : sunken_parts(scene, setup.view);
+  draw_canvas(scene, setup, parts, layers);
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
   device_.end_pass();
-  if (under) {
-    PassDesc pass{targets.averaged(), nothing_drawn, false};
-    if (canvas_area_) {
-      pass.averages = targets.canvas();
-      pass.averaged_area = *canvas_area_;
-    }
-    device_.begin_pass(pass);
-    if (soft && smoke_last) soft_.cover_with_smoke(call({}));
-    draw_background(scene, setup, true);
-    device_.end_pass();
-  }
-  finish(under);
+  if (layers.ground_under) draw_averaged(scene, setup, parts, layers);
+  finish(layers.ground_under);
   return WorldDrawn{setup.camera, plan_.visible, plan_.culled};
 }
 

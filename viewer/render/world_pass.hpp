@@ -28,6 +28,18 @@ class WorldPass {
   void forget_meshes_before(uint64_t frame) { meshes_.forget_before(frame); }
 
  private:
+  /// What comes when.
+  struct Layers {
+    bool ground_under = false;  ///< ground and sky come under the averaged canvas
+    bool smoke_last = false;    ///< smoke comes over that, not into the canvas
+  };
+  /// Of the canvas.
+  struct CanvasParts {
+    std::vector<ScissorRect> solid;         ///< hold all bodies
+    std::vector<ScissorRect> drawn;         ///< hold all that is drawn but the ground
+    std::vector<ScissorRect> below_ground;  ///< hold what the ground hides
+  };
+
   DrawCall call(PipelineId pipeline) const;
   void fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& lines,
                     const MarkRuns<GpuPoint>& points);
@@ -38,9 +50,13 @@ class WorldPass {
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
                    const std::optional<ScissorRect>& within = {});
+  void draw_ground_depth(std::span<const ScissorRect> parts);
   void draw_bodies(const RenderScene& scene);
   void draw_background(const RenderScene& scene, const FrameSetup& setup, bool under);
-  void draw_canvas(const RenderScene& scene, const FrameSetup& setup, bool under, bool smoke_last);
+  void draw_canvas(const RenderScene& scene, const FrameSetup& setup, const CanvasParts& parts,
+                   const Layers& layers);
+  void draw_averaged(const RenderScene& scene, const FrameSetup& setup, const CanvasParts& parts,
+                     const Layers& layers);
   void finish(bool is_averaged);
   void draw_blended(const RenderScene& scene);
   void enlarge();
@@ -58,8 +74,6 @@ class WorldPass {
   uint64_t frame_ = 0;                 ///< number of the picture that is being drawn
   DrawPlan plan_;
   GroundPlan ground_plan_;
-  /// What of the canvas is looked at where ground and sky come under it; none: nothing.
-  std::optional<ScissorRect> canvas_area_;
 };
 
 }  // namespace tumble

@@ -1,5 +1,5 @@
-// What of a picture bodies cover, and how far down it the sky is seen. References: every vertex of
-// every mesh, projected; a ray through each of many pixels.
+// Parts of a picture that bodies cover, and how far down it the sky is seen. References: every
+// vertex of every mesh, projected; a ray through each of many pixels.
 #include "viewer/render/drawn_area.hpp"
 
 #include "engine/core/random.hpp"
@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -49,80 +51,112 @@ RenderScene random_bodies(Random& r, int count) {
   return scene;
 }
 
-/// Least rectangle around the vertices in the picture [px], from its top left.
-struct Seen {
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
-  bool near = false;    ///< some are nearer than anything is drawn
-  bool beside = false;  ///< some are not in the picture
-};
-Seen project_vertices(const RenderScene& scene, const ViewSetup& view) {
-  Seen seen;
-  for (const MeshInstance& i : scene.instances)
-    for (size_t v = 0; v < i.mesh->positions.size(); ++v) {
-      const Mat3f& l = i.transform.linear;
-      const Vec3f axes(l.col(0).norm(), l.col(1).norm(), l.col(2).norm());
-      const Vec3f n = i.mesh->normals[v];
-      Vec3f along = Vec3f::Zero();  // inflated cores keep their normals (surface.vert)
-      for (int k = 0; k < 3; ++k)
-        if (axes[k] > 0) along += l.col(k) * (n[k] / axes[k]);
-      const Vec3f x = l * i.mesh->positions[v] + i.transform.offset + along * i.inflate;
-      const Vec4 c = view.clip_from_world * Vec4(double(x.x()), double(x.y()), double(x.z()), 1);
-      if (c.z() < -c.w()) {
-        seen.near = true;
-        continue;
-      }
-      const double px = 0.5 * (c.x() / c.w() + 1) * view.width;
-      const double py = 0.5 * (1 - c.y() / c.w()) * view.height;
-      if (px < 0 || px > view.width || py < 0 || py > view.height) {
-        seen.beside = true;
-        continue;
-      }
-      seen.left = std::min(seen.left, px);
-      seen.right = std::max(seen.right, px);
-      seen.top = std::min(seen.top, py);
-      seen.bottom = std::max(seen.bottom, py);
-    }
-  return seen;
+/// The vertices as they are drawn: inflated cores keep their normals (surface.vert).
+std::vector<Vec3> vertices_of(const MeshInstance& i) {
+  std::vector<Vec3> out;
+  const Mat3f& l = i.transform.linear;
+  for (size_t v = 0; v < i.mesh->positions.size(); ++v) {
+    Vec3f along = Vec3f::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (const float axis = l.col(k).norm(); axis > 0)
+        along += l.col(k) * (i.mesh->normals[v][k] / axis);
+    out.push_back(
+        (l * i.mesh->positions[v] + i.transform.offset + along * i.inflate).cast<double>());
+  }
+  return out;
+}
+
+/// Where a point is in the picture [px], from its top left; none where it is not.
+std::optional<Vec2> place_of(const Vec3& x, const ViewSetup& view) {
+  const Vec4 c = view.clip_from_world * Vec4(x.x(), x.y(), x.z(), 1);
+  if (c.z() < -c.w()) return {};
+  const Vec2 at(0.5 * (c.x() / c.w() + 1) * view.width, 0.5 * (1 - c.y() / c.w()) * view.height);
+  const bool inside = at.x() >= 0 && at.x() < view.width && at.y() >= 0 && at.y() < view.height;
+  return inside ? std::optional(at) : std::nullopt;
+}
+
+/// How many of the parts hold a place.
+int parts_at(const std::vector<ScissorRect>& parts, const Vec2& at) {
+  return int(std::count_if(parts.begin(), parts.end(), [&](const ScissorRect& p) {
+    return at.x() >= p.x && at.x() < p.x + p.width && at.y() >= p.y && at.y() < p.y + p.height;
+  }));
+}
+
+int pixels_of(const std::vector<ScissorRect>& parts) {
+  int sum = 0;
+  for (const ScissorRect& p : parts) sum += p.width * p.height;
+  return sum;
 }
 
 }  // namespace
 
-TEST_CASE("the area of bodies holds all their vertices, and little more around a box") {
+TEST_CASE("each vertex of a body is in one of the parts that bodies are drawn in") {
   Random random(28);
-  int small = 0, tight = 0;
+  int vertices = 0, several = 0, small = 0;
   for (int round = 0; round < 300; ++round) {
     const RenderScene scene = random_bodies(random, round % 3 == 0 ? 1 : 1 + round % 7);
-    const FrameSetup setup = make_frame_setup(scene, picture_width, picture_height);
-    const auto area = drawn_area(scene, setup.view);
-    const Seen seen = project_vertices(scene, setup.view);
-    if (seen.near || seen.left > seen.right) continue;
-    REQUIRE(area.has_value());
-    CHECK(area->x <= seen.left);
-    CHECK(area->y <= seen.top);
-    CHECK(area->x + area->width >= seen.right);
-    CHECK(area->y + area->height >= seen.bottom);
-    small += area->width < 200 && area->height < 120;
-    if (scene.instances.size() == 1 && !seen.beside) {  // a box: its corners are chamfered, no more
-      CHECK(area->width <= seen.right - seen.left + 10);
-      CHECK(area->height <= seen.bottom - seen.top + 10);
-      ++tight;
-    }
+    const ViewSetup view = make_frame_setup(scene, picture_width, picture_height).view;
+    const auto parts = drawn_parts(scene, view);
+    for (const MeshInstance& i : scene.instances)
+      for (const Vec3& x : vertices_of(i))
+        if (const auto at = place_of(x, view)) {
+          CHECK(parts_at(parts, *at) == 1);
+          ++vertices;
+        }
+    several += parts.size() > 1;
+    small += pixels_of(parts) < picture_width * picture_height / 3;
   }
+  CHECK(vertices > 10000);
+  CHECK(several > 50);
   CHECK(small > 30);
-  CHECK(tight > 20);
 }
 
-TEST_CASE("without bodies no area is drawn, around the eye all of it") {
+TEST_CASE("what the ground hides of a body is in one of the parts that are drawn below it") {
+  Random random(30);
+  int below = 0, spared = 0;
+  for (int round = 0; round < 300; ++round) {
+    RenderScene scene = random_bodies(random, 1 + round % 5);
+    scene.camera.eye.y() = std::abs(scene.camera.eye.y()) + 1;
+    scene.ground.height = random.uniform(-3, 0);
+    const ViewSetup view = make_frame_setup(scene, picture_width, picture_height).view;
+    const auto parts = sunken_parts(scene, view);
+    for (const MeshInstance& i : scene.instances)
+      for (const Vec3& x : vertices_of(i)) {
+        const double pixel = (x - view.eye).dot(view.forward) / view.pixels_per_radian;
+        const auto at = place_of(x, view);
+        if (!at || x.y() > double(scene.ground.height) - 0.01 * pixel) continue;
+        CHECK(parts_at(parts, *at) == 1);
+        ++below;
+      }
+    spared += parts.empty() && !drawn_parts(scene, view).empty();
+  }
+  CHECK(below > 1000);
+  CHECK(spared > 20);
+}
+
+TEST_CASE(
+    "a ball just over the ground is not below it, one that is selected has an outline there") {
+  RenderScene scene;
+  scene.camera.eye = Vec3(0, 2, 8);
+  scene.ground.height = 0;
+  const Pose turned{Vec3(0, 0.51, 0), axis_angle(Vec3(1, 2, 3).normalized(), 0.7)};
+  scene.instances.push_back(sphere_instance(turned, 0.5, Paint()));
+  const ViewSetup view = make_frame_setup(scene, picture_width, picture_height).view;
+  CHECK(sunken_parts(scene, view).empty());
+  scene.instances[0].selected = true;
+  CHECK(sunken_parts(scene, view).size() == 1);
+}
+
+TEST_CASE("without bodies no part is drawn, around the eye all of them") {
   RenderScene scene;
   const ViewSetup empty = make_frame_setup(scene, picture_width, picture_height).view;
-  CHECK_FALSE(drawn_area(scene, empty).has_value());
+  CHECK(drawn_parts(scene, empty).empty());
   scene.instances.push_back(
       box_instance({scene.camera.eye, Quat::Identity()}, Vec3::Constant(0.5), Paint()));
   const FrameSetup setup = make_frame_setup(scene, picture_width, picture_height);
-  const auto area = drawn_area(scene, setup.view);
-  REQUIRE(area.has_value());
-  CHECK(area->width == picture_width);
-  CHECK(area->height == picture_height);
+  const auto parts = drawn_parts(scene, setup.view);
+  REQUIRE(parts.size() == 1);
+  CHECK(pixels_of(parts) == picture_width * picture_height);
 }
 
 TEST_CASE("below the rows of the sky every ray meets the ground") {

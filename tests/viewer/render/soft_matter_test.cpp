@@ -162,9 +162,16 @@ TEST_CASE("smoke is drawn from far to near, without what the camera does not see
   CHECK(puffs[3].place[2] == 4);
 }
 
-TEST_CASE("what a puff covers lies in the part of the picture that is given for smoke") {
+/// How many of the parts hold a place of the picture [px].
+int parts_at(const std::vector<ScissorRect>& parts, double column, double row) {
+  return int(std::count_if(parts.begin(), parts.end(), [&](const ScissorRect& p) {
+    return column >= p.x && column < p.x + p.width && row >= p.y && row < p.y + p.height;
+  }));
+}
+
+TEST_CASE("what a puff covers, or shades, lies in one of the parts that are given for smoke") {
   Random r(5);
-  int seen = 0, parts = 0;
+  int seen = 0, shaded = 0, parted = 0;
   for (int trial = 0; trial < 200; ++trial) {
     RenderScene scene;
     scene.camera.eye = Vec3(r.uniform(-3, 3), r.uniform(-2, 3), r.uniform(1, 8));
@@ -172,30 +179,38 @@ TEST_CASE("what a puff covers lies in the part of the picture that is given for 
       scene.smoke.push_back(puff_at(Vec3f(float(r.uniform(-2, 2)), float(r.uniform(-1, 2)), 0)));
     const FrameSetup setup = make_frame_setup(scene, 640, 360);
     const auto puffs = plan_smoke(scene, setup.view, {});
-    const auto area = smoke_area(puffs, setup.view);
-    CHECK(area.has_value() == !puffs.empty());
-    if (!area) continue;
-    parts += area->width * area->height < 640 * 360;
-    // Points of the cards, which face the eye.
-    for (int k = 0; k < 50; ++k) {
+    SmokeShade shade;
+    shade.falls = trial % 2 == 1;
+    shade.to_sun = Vec3(r.uniform(-1, 1), r.uniform(0.2, 1), r.uniform(-1, 1)).normalized();
+    shade.lowest = -1.5;
+    const auto parts = smoke_parts(scene, puffs, shade, setup.view);
+    if (!shade.falls) CHECK(parts.empty() == puffs.empty());
+    int pixels = 0;
+    for (const ScissorRect& p : parts) pixels += p.width * p.height;
+    parted += pixels < 640 * 360 / 2;
+    const auto check = [&](const Vec3& x, int& count) {
+      const Vec4 clip = setup.view.clip_from_world * Vec4(x.x(), x.y(), x.z(), 1);
+      if (clip.head<3>().cwiseAbs().maxCoeff() >= clip.w()) return;
+      CHECK(parts_at(parts, 320 * (clip.x() / clip.w() + 1), 180 * (1 - clip.y() / clip.w())) == 1);
+      ++count;
+    };
+    for (int k = 0; k < 50 && !puffs.empty(); ++k) {
+      // Points of the cards, which face the eye, and of what is behind one of them for the sun.
       const auto& place = puffs[r.below(uint32_t(puffs.size()))].place;
       const Vec3 centre = Vec3f(place[0], place[1], place[2]).cast<double>();
       const Vec3 ahead = (centre - setup.view.eye).normalized();
       const Vec3 right = ahead.cross(setup.view.up).normalized(), up = right.cross(ahead);
       const double angle = r.uniform(0, 2 * M_PI), reach = r.uniform() * double(place[3]);
-      const Vec3 x = centre + reach * (std::cos(angle) * right + std::sin(angle) * up);
-      const Vec4 clip = setup.view.clip_from_world * Vec4(x.x(), x.y(), x.z(), 1);
-      if (clip.head<3>().cwiseAbs().maxCoeff() > clip.w()) continue;
-      const double column = 320 * (clip.x() / clip.w() + 1), row = 180 * (1 - clip.y() / clip.w());
-      CHECK(column >= area->x);
-      CHECK(column <= area->x + area->width);
-      CHECK(row >= area->y);
-      CHECK(row <= area->y + area->height);
-      ++seen;
+      check(centre + reach * (std::cos(angle) * right + std::sin(angle) * up), seen);
+      if (!shade.falls) continue;
+      const Vec3 side = shade.to_sun.cross(Vec3::UnitX()).normalized();
+      const double way = r.uniform(0, std::max(centre.y() - shade.lowest, 0.0) / shade.to_sun.y());
+      check(centre - way * shade.to_sun + reach * std::cos(angle) * side, shaded);
     }
   }
   CHECK(seen > 3000);
-  CHECK(parts > 100);
+  CHECK(shaded > 1000);
+  CHECK(parted > 30);
 }
 
 TEST_CASE("liquid that moves as a whole does not foam, where streams meet it does") {
