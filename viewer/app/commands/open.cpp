@@ -114,7 +114,7 @@ CommandAction declare_open(Options& options) {
       .between(0.0, 8.0);
   options.value("--captures", line->capture_folder, "folder for screenshots and sequences")
       .shows_default();
-  // For tests and demonstrations, see viewer/app/README.md.
+  // For tests and demonstrations, see viewer/app/window/README.md.
   options.value("--status-file", line->status_file).hidden();
   options.value("--script", line->script).hidden();
   options.footer(
