@@ -23,10 +23,11 @@ struct BroadPhaseProxy {
 /// What a list of proxies that is kept from call to call says of itself, so that nobody need look
 /// at those that rest.
 struct ProxyNews {
-  uint64_t number = 0;            ///< one more with every update of the list
-  bool all = true;                ///< any proxy may be another than in the update before
-  std::vector<uint32_t> moving;   ///< indices of those that move, ascending
-  std::vector<uint32_t> settled;  ///< unless all: of those that changed and do not move, ascending
+  uint64_t number = 0;           ///< one more with every update of the list
+  bool all = true;               ///< any proxy may be another than in the update before
+  std::vector<uint32_t> moving;  ///< indices of those that move, ascending
+  /// Unless all: of those that have come to rest (changed, and do not move), ascending.
+  std::vector<uint32_t> settled;
 
   /// After an update of all proxies.
   void everything(std::span<const BroadPhaseProxy> proxies);

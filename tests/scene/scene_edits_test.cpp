@@ -320,8 +320,8 @@ TEST_CASE("turned bodies come back with the bits that they had") {
     after.pose.q = axis_angle(axis, 0.37 * i).normalized();  // as bodies have it
     added.pose.q = (axis_angle(axis, 30 * i * det::pi / 180) * after.pose.q).normalized();
     // A body makes its quaternion unit, which moves the last bits of one in fifteen again.
-    const auto settled = [](const Quat& q) { return q.normalized().coeffs() == q.coeffs(); };
-    if (!settled(after.pose.q) || !settled(added.pose.q)) continue;
+    const auto normalised = [](const Quat& q) { return q.normalized().coeffs() == q.coeffs(); };
+    if (!normalised(after.pose.q) || !normalised(added.pose.q)) continue;
     ++tried;
     added.shapes[0].pose.q = after.pose.q;
     added.name = "new";

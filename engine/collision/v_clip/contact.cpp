@@ -49,7 +49,7 @@ double overlap_across(const Neighbourhood& a, const Neighbourhood& b, const Vec3
 
 }  // namespace
 
-Move settle_contact(Walk& walk) {
+Move judge_touching(Walk& walk) {
   const Side &A = walk.side[0], &B = walk.side[1];
   Answer& found = walk.found;
   Vec3 pa = found.points[0], pb = found.points[1];

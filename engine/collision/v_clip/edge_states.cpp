@@ -31,7 +31,7 @@ double slope_into_faces(const Walk& walk, const VoronoiEdge& e0, const VoronoiEd
                    e1.into_face[1].dot(back)});
 }
 
-Move settle_edges(Walk& walk, const Vec3& a, const Vec3& b, const Vec3& r, double excess) {
+Move write_edge_answer(Walk& walk, const Vec3& a, const Vec3& b, const Vec3& r, double excess) {
   Answer& found = walk.found;
   found.frame = 0;
   found.points = {a, b};
@@ -59,7 +59,7 @@ bool cross_between_ends(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1
   r += ((c * a2 - b2) * inverse) * line.direction - ((a2 - c * b2) * inverse) * e0.direction;
   const double excess = slope_into_faces(walk, e0, e1, r);
   if (excess > walk.epsilon) return false;
-  settle_edges(walk, e0.tail + s * e0.direction, line.tail + t * line.direction, r, excess);
+  write_edge_answer(walk, e0.tail + s * e0.direction, line.tail + t * line.direction, r, excess);
   return true;
 }
 
@@ -124,7 +124,8 @@ bool leaves_face_planes(const Walk& walk, size_t ie, const VoronoiEdge& e, const
 }
 
 /// Parallel edges, or nearest points at ends that the tests left to rounding.
-Move settle_loose(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1, const Line& line) {
+Move answer_by_segments(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1,
+                        const Line& line) {
   const SegmentsNearest near =
       nearest_of_segments(e0.tail, e0.direction, e0.length, line.tail, line.direction, line.length);
   Vec3 r = near.gap;
@@ -133,7 +134,7 @@ Move settle_loose(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1, cons
   const double slope1 = std::abs(line.direction.dot(r));
   const double excess = std::max(slope_into_faces(walk, e0, e1, r), slope1);
   const Vec3 a = e0.tail + near.s * e0.direction, b = line.tail + near.t * line.direction;
-  settle_edges(walk, a, b, r, excess);
+  write_edge_answer(walk, a, b, r, excess);
   walk.found.distance = near.gap.norm();
   walk.found.overshoot += std::abs(slope0) > walk.epsilon ? walk.reach : 0;
   return Move::arrived;
@@ -176,7 +177,7 @@ Move edge_edge(Walk& walk) {
     walk.at[1] = next;
     return Move::onward;
   }
-  return settle_loose(walk, e0, e1, line1);
+  return answer_by_segments(walk, e0, e1, line1);
 }
 
 Move edge_face(Walk& walk, size_t ie) {

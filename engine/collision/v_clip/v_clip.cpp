@@ -132,7 +132,7 @@ VClipResult v_clip(const PlacedPolyhedron& A, const PlacedPolyhedron& B,
     const double corner = std::min(A.model->least_corner_sine, B.model->least_corner_sine);
     const bool face = w.at[0].kind == FeatureKind::face || w.at[1].kind == FeatureKind::face;
     if (w.found.distance <= w.touching && !face) {
-      move = vclip::settle_contact(w);
+      move = vclip::judge_touching(w);
     } else if (w.found.overshoot > doubtful_error * w.scale * corner) {
       r.answer = VClipAnswer::search_after_doubt;
       move = vclip::search_all(w);

@@ -53,7 +53,7 @@ Move edge_face(Walk& walk, size_t e);
 
 /// Decides what features that meet within the tolerance mean: `arrived` with the normal of a plane
 /// between the cones of the two features, or `penetrating` when there is none.
-Move settle_contact(Walk& walk);
+Move judge_touching(Walk& walk);
 
 /// Answers without walking: GJK gives a plane between the bodies, and all pairs of features that
 /// reach the slab in which the nearest points must lie are compared. Cannot cycle.

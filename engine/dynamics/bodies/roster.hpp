@@ -30,7 +30,8 @@ class Roster {
   bool everything() const { return !known_ || whole_; }
   /// Slots of the bodies that seek contacts, ascending.
   std::span<const uint32_t> active() const { return active_; }
-  /// Slots, ascending, of those that did at the last refresh, or were touched, and do not.
+  /// Slots, ascending, of those that have come to rest: they did at the last refresh, or were
+  /// touched, and do not.
   std::span<const uint32_t> settled() const { return settled_; }
   /// Slots of those that were touched since the last refresh.
   std::span<const uint32_t> touched() const { return touched_; }

@@ -51,7 +51,7 @@ Result<std::optional<MovingContact>> edge_edge_contact(const MovingEdge& a, cons
       return std::optional(contact_at_start(MovingHull(a, b)));
   }
   out = march(MovingHull(a, b), separation, march_from);
-  if (out && !out->certain) settle_at_ends(*out, points, meet);
+  if (out && !out->certain) decide_at_ends(*out, points, meet);
   return out;
 }
 

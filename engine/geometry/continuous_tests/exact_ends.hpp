@@ -28,7 +28,7 @@ bool meets_at_start(const std::array<const MovingPoint*, n>& points, const Meet&
 /// At t = 0 and t = 1 positions are doubles, so that exact predicates decide what the march left in
 /// doubt there: `meet(&MovingPoint::start)`, `meet(&MovingPoint::end)`.
 template <size_t n, class Meet>
-void settle_at_ends(MovingContact& contact, const std::array<const MovingPoint*, n>& points,
+void decide_at_ends(MovingContact& contact, const std::array<const MovingPoint*, n>& points,
                     const Meet& meet) {
   const bool at_start = contact.t_lo == 0, at_end = contact.t_hi == 1;
   if (!(at_start || at_end) || !within_exact_range(points)) return;

@@ -54,7 +54,7 @@ Result<std::optional<MovingContact>> vertex_face_contact(const MovingPoint& vert
       return std::optional(contact_at_start(MovingHull(vertex, face)));
   }
   out = march(MovingHull(vertex, face), separation, march_from);
-  if (out && !out->certain) settle_at_ends(*out, points, meet);
+  if (out && !out->certain) decide_at_ends(*out, points, meet);
   return out;
 }
 

@@ -36,7 +36,7 @@ StepReport ImplicitEuler::take(System& system, double t, double h, Start) {
     // The last correction is small, and so is what it leaves: a part `ratio` of it.
     if (fraction == 1 && size(next_) * std::max(1.0, ratio / (1 - ratio)) <= 1) {
       for (size_t u = 0; u < unknown_.size(); ++u) y1_[unknown_[u]] += next_[u];
-      settle_quadratures(h);
+      advance_quadratures(h);
       system.normalise(y1_);
       report.status = StepStatus::ok;
       report.advanced = h;
@@ -133,7 +133,7 @@ bool ImplicitEuler::descend(System& system, double t1, double h, double& fractio
   return false;
 }
 
-void ImplicitEuler::settle_quadratures(double h) {
+void ImplicitEuler::advance_quadratures(double h) {
   size_t u = 0;
   for (size_t i = 0; i < y0_.size(); ++i) {
     if (u < unknown_.size() && unknown_[u] == i) {

@@ -30,7 +30,7 @@ class ImplicitEuler final : public Integrator {
   /// Goes from y1_ along correction_ by 1, 1/2, 1/4 ... until the next correction is shorter.
   bool descend(System& system, double t1, double h, double& fraction, double& ratio,
                StepReport& report);
-  void settle_quadratures(double h);
+  void advance_quadratures(double h);
 
   std::vector<size_t> unknown_;  ///< entries that the equations are about
   std::vector<double> f_, trial_, f_trial_, jacobian_, matrix_, allowed_;

@@ -38,7 +38,7 @@ class Joiner {
   RobotBodies take() {
     for (size_t i = 0; i < model_.links.size(); ++i) add(i);
     for (size_t b = 0; b < out_.bodies.size(); ++b)
-      if (!gone_[b] && !(out_.bodies[b].mass.mass > 0)) settle(b);
+      if (!gone_[b] && !(out_.bodies[b].mass.mass > 0)) join_massless(b);
     renumber();
     place();
     return std::move(out_);
@@ -75,7 +75,7 @@ class Joiner {
   }
 
   /// A body without mass: what hangs on it decides.
-  void settle(size_t b) {
+  void join_massless(size_t b) {
     RobotBody& body = out_.bodies[b];
     if (body.fixed) return;
     if (body.floating) {

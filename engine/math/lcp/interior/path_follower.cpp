@@ -138,7 +138,7 @@ LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, doub
   }
   out.report.solver = "cone_interior";
   out.report.iterations = system.systems;
-  settle_iterated(system, options, out);
+  grade_iterated(system, options, out);
   return out;
 }
 

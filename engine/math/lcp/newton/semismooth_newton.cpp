@@ -136,7 +136,7 @@ LcpSolution SemismoothNewton::answer(const LcpOptions& options) const {
   out.z = best_.z;
   out.report.solver = "cone_newton";
   out.report.iterations = systems();
-  settle_iterated(system_, options, out);
+  grade_iterated(system_, options, out);
   return out;
 }
 

@@ -97,7 +97,7 @@ void BestPoint::consider(ConeSystem& system, const VecX& scaled) {
   z = std::move(plain);
 }
 
-void settle_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
+void grade_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   system.grade(options.tolerance, s);
   if (!s.report.solved()) s.report.status = LcpStatus::max_iterations;

@@ -91,6 +91,6 @@ struct BestPoint {
 };
 
 /// Completes an answer that is solved if its residual says so.
-void settle_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& solution);
+void grade_iterated(ConeSystem& system, const LcpOptions& options, LcpSolution& solution);
 
 }  // namespace tumble::lcp
