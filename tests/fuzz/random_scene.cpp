@@ -1,5 +1,6 @@
 #include "tests/fuzz/random_scene.hpp"
 
+#include "engine/collision/shape.hpp"
 #include "engine/core/random.hpp"
 #include "engine/math/det/det.hpp"
 
@@ -53,7 +54,9 @@ double cube(double x) {
 /// Draws one scene, part after part.
 class SceneMaker {
  public:
-  SceneMaker(uint64_t seed, const std::string& stepper) : random_(seed, 24), stepper_(stepper) {
+  SceneMaker(uint64_t seed, const std::string& stepper)
+      : random_(seed, 24), shape_draws_(seed, 25), stepper_(stepper) {
+    has_listed_shapes_ = shape_draws_.uniform() < 0.25;
     scene_["tumble_scene"] = 1;
     scene_["seed"] = seed;
     draw_scale();
@@ -159,8 +162,37 @@ class SceneMaker {
     return values[random_.below(uint32_t(values.size()))];
   }
 
+  /// Any convex shape of all_shapes() that is said by numbers, one that is added there included.
+  Json draw_listed_shape(double r) {
+    std::vector<const ShapeEntry*> entries;
+    for (const ShapeEntry& e : all_shapes())
+      if (e.family == ShapeFamily::convex && !e.parameters.empty()) entries.push_back(&e);
+    const ShapeEntry& entry = *entries[shape_draws_.below(uint32_t(entries.size()))];
+    ShapeDef def;
+    def.type = entry.type;
+    double bounding_radius = 0;
+    while (bounding_radius == 0) {  // sizes may contradict each other
+      for (const ShapeParameter& p : entry.parameters) {
+        if (p.number) def.*p.number = shape_draws_.uniform(0.15, 1);
+        for (int k = 0; p.vector && k < 3; ++k) (def.*p.vector)[k] = shape_draws_.uniform(0.15, 1);
+      }
+      if (const auto shape = make_shape(def)) bounding_radius = (*shape)->bounding_radius();
+    }
+    const double scale = r / std::max(1.0, bounding_radius);
+    Json json = {{"type", entry.name}};
+    for (const ShapeParameter& p : entry.parameters) {
+      const double f = scale / p.factor;
+      if (p.number) json[p.parameter.name] = f * (def.*p.number);
+      if (!p.vector) continue;
+      const Vec3 v = f * (def.*p.vector);
+      json[p.parameter.name] = Vector{v.x(), v.y(), v.z()};
+    }
+    return json;
+  }
+
   /// A shape within a sphere of radius r about its origin.
   Json draw_shape(double r, bool part) {
+    if (has_listed_shapes_ && shape_draws_.uniform() < 0.5) return draw_listed_shape(r);
     const uint32_t kind = random_.below(part ? 7 : 9);
     const auto extent = [&] { return random_.uniform(0.15, 1) * r; };
     switch (kind) {
@@ -358,6 +390,8 @@ class SceneMaker {
   }
 
   Random random_;
+  Random shape_draws_;  ///< what is added to the list of shapes changes no scene without them
+  bool has_listed_shapes_ = false;
   std::string stepper_;
   Json scene_;
   bool ordinary_ = false, defaults_ = false, explicit_euler_ = false;
