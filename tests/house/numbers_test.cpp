@@ -1,6 +1,6 @@
-// Numbers of dynamics stand with their reasons in the tolerances.hpp of their room. Reference: the
-// text of every other file there; what is written with an exponent, or as a named floating-point
-// constant, is a tolerance.
+// Numbers of dynamics and of the solvers of complementarity stand with their reasons in the
+// tolerances.hpp of their room. Reference: the text of every other file there; what is written with
+// an exponent, or as a named floating-point constant, is a tolerance.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -10,17 +10,21 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("numbers of dynamics have their reasons in tolerances.hpp") {
+TEST_CASE("numbers of dynamics and lcp have their reasons in tolerances.hpp") {
   const std::regex comment("//.*"), text("\"[^\"]*\"");
   const std::regex with_exponent("\\b[0-9]+\\.?[0-9]*e-?[0-9]+");
   const std::regex named("constexpr (double|float) \\w+ = -?[0-9.]+f?;");
   // A constant, a unit, the default of a value that scenes give.
   const std::regex unit("constexpr double (pi|second|default_\\w+) = .*");
+  // A member that callers or scenes set, with what it means beside its default.
+  const std::regex option("\\s+double \\w+ = [^;]+;\\s+///<.*");
   const std::regex settings(".*_settings\\.[ch]pp");
   int files = 0;
-  for (const char* room : {"bodies", "particles", "rows", "joints", "contact", "islands",
-                           "realtime", "grains", "event"}) {
-    const fs::path folder = fs::path(TUMBLE_SOURCE_DIR) / "engine/dynamics" / room;
+  for (const char* room :
+       {"dynamics/bodies", "dynamics/particles", "dynamics/forces", "dynamics/rows",
+        "dynamics/joints", "dynamics/contact", "dynamics/islands", "dynamics/realtime",
+        "dynamics/grains", "dynamics/event", "math/lcp"}) {
+    const fs::path folder = fs::path(TUMBLE_SOURCE_DIR) / "engine" / room;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string name = entry.path().filename();
       const std::string extension = entry.path().extension();
@@ -32,7 +36,7 @@ TEST_CASE("numbers of dynamics have their reasons in tolerances.hpp") {
       for (int number = 1; std::getline(in, line); ++number) {
         const std::string code =
             std::regex_replace(std::regex_replace(line, comment, ""), text, "");
-        if (std::regex_search(code, unit)) continue;
+        if (std::regex_search(code, unit) || std::regex_match(line, option)) continue;
         const bool bare = std::regex_search(code, with_exponent) || std::regex_search(code, named);
         CHECK_MESSAGE(!bare, entry.path().string(), ":", number, ": ", line);
       }

@@ -1,5 +1,6 @@
 #include "engine/dynamics/forces/field.hpp"
 
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/det/det.hpp"
 
 namespace tumble {
@@ -11,7 +12,8 @@ Vec3 flow_acceleration(const Vec3& w, double rate, double k, double h) {
   if (!(h > 0)) return pull * w;
   // The series where the difference would lose digits.
   const double ch = rate * h;
-  const double s = ch < 1e-4 ? h * (1 - ch / 2 * (1 - ch / 3)) : (1 - det::exp(-ch)) / rate;
+  const double s = ch < tolerances::exponential_series ? h * (1 - ch / 2 * (1 - ch / 3))
+                                                       : (1 - det::exp(-ch)) / rate;
   return s / h * pull / (1 + k * speed * s) * w;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 
 #include <string>
 #include <string_view>
@@ -133,7 +134,7 @@ template <class Flow>
 void carry_along(const Flow& flow, const FlowGrip& grip, const ForceContext& context,
                  RigidBody& b) {
   const double r = b.bounding_radius;
-  if (b.asleep || !(r > 0 && r < 1e9)) return;
+  if (b.asleep || !(r > 0 && r < tolerances::endless_body)) return;
   constexpr double pi = 3.14159265358979323846;
   const double half = 0.5 * grip.fluid_density * grip.coefficient;
   const double lead = context.momentary ? 0 : context.lead, h = context.momentary ? 0 : context.h;

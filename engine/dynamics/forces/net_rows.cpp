@@ -1,15 +1,12 @@
 #include "engine/dynamics/forces/net_rows.hpp"
 
+#include "engine/dynamics/forces/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-/// Largest z (see SpringNet) that is told from a rigid rod [-]: what weighs as much as the ends of
-/// the spring stretches it by g h^2/z, 3e-8 m at 60 Hz. Stiffer springs are taken as this stiff,
-/// which bounds the condition of the matrix, and so the work.
-constexpr double stiffest = 1e5;
 
 /// -(change of the moment r x F) of an end per turn of the node, across the arm: its largest value
 /// over the axes of turning, |r| |F| cos^2(phi/2) with phi the angle between both, so that it is
@@ -35,8 +32,8 @@ struct Taken {
   double k, unresolved;
 };
 Taken taken(double stiffness, double z) {
-  const double k = stiffness * std::min(1.0, stiffest / z);
-  return {k, k * (1 - 1 / std::max(1.0, std::min(z, stiffest)))};
+  const double k = stiffness * std::min(1.0, tolerances::stiffest_spring / z);
+  return {k, k * (1 - 1 / std::max(1.0, std::min(z, tolerances::stiffest_spring)))};
 }
 
 }  // namespace

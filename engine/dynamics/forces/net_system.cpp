@@ -1,6 +1,7 @@
 #include "engine/dynamics/forces/net_system.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/dense.hpp"
 
 #include <algorithm>
@@ -10,14 +11,6 @@
 
 namespace tumble {
 namespace {
-
-/// How much of the first residual may be left, in the norm of the inverted diagonal [-]: the
-/// velocities are off by about this share of their change.
-constexpr double mesh_accuracy = 3e-3;
-/// Rounds of solving in single precision; each takes off more than half of the digits that it has.
-constexpr int most_rounds = 8;
-/// Of conjugate gradients in a round [-].
-constexpr int most_steps = 2000;
 
 Mat3 block_of(const NetPart& a, const Mat3& E, const NetPart& b) {
   if (a.plain && b.plain) return (a.weight * b.weight) * E;
@@ -275,7 +268,7 @@ int NetSystem::correct(std::span<const Vec3> r, double target) {
   p_ = y_;
   double ry = dot(residual_, y_);
   int steps = 0;
-  while (steps < most_steps && ry > target * target) {
+  while (steps < tolerances::most_mesh_net_steps && ry > target * target) {
     if (steps % 64 == 63 && stop_requested()) break;
     apply(p_, product_);
     for (const uint32_t k : held_) {
@@ -314,7 +307,7 @@ void NetSystem::solve(const SpringNet& net, SpringNet::Answer& out) {
   start_holds();
   out.report = {};
   double reference = 0;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < tolerances::most_mesh_net_rounds; ++round) {
     residual(r_);
     if (round > 0) let_go(r_);
     project(r_);
@@ -327,8 +320,8 @@ void NetSystem::solve(const SpringNet& net, SpringNet::Answer& out) {
     }
     if (!(reference > 0)) break;
     out.report.residual = left / reference;
-    if (left <= mesh_accuracy * reference || stop_requested()) break;
-    out.report.iterations += correct(r_, 0.5 * mesh_accuracy * reference);
+    if (left <= tolerances::mesh_net_residual * reference || stop_requested()) break;
+    out.report.iterations += correct(r_, 0.5 * tolerances::mesh_net_residual * reference);
   }
   answer(out);
 }
@@ -429,10 +422,9 @@ void NetSystem::take_rigid_motion(std::span<const Vec3> left, std::vector<Vec3>&
   const Mat3 R = small_matrix(axes.eigenvectors());
   Vec3 spin = R.transpose() * moment;
   // A straight rope has no moment along itself, and no inertia but rounding.
-  constexpr double no_inertia = 1e-12;
   for (int i = 0; i < 3; ++i) {
     const double about = axes.eigenvalues()[i];
-    spin[i] = about > no_inertia * axes.eigenvalues()[2] ? spin[i] / about : 0;
+    spin[i] = about > tolerances::no_rope_inertia * axes.eigenvalues()[2] ? spin[i] / about : 0;
   }
   spin = R * spin;
   for (size_t k = 0; k < count; ++k) {

@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/dynamics/forces/spring_pulls.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +42,7 @@ std::string bend_fault(const SpringMesh& mesh) {
       sum += b.weight[k];
       size += std::fabs(b.weight[k]);
     }
-    constexpr double rounding = 1e-12;
-    if (!(std::fabs(sum) <= rounding * size))
+    if (!(std::fabs(sum) <= tolerances::bend_rounding * size))
       return fmt::format("the weights of bend {} add up to {}, not to 0", i, sum);
     if (!is_strength(b.stiffness) || !is_strength(b.damping))
       return fmt::format(

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/net_rows.hpp"
 #include "engine/dynamics/forces/net_system.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -14,12 +15,6 @@ namespace tumble {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-/// SpringNet::Report::residual that is asked for [-]. What is left acts as an error of the velocity
-/// of this share of its change.
-constexpr double accuracy = 1e-8;
-/// Of conjugate gradients; nets of a condition of 1e5 need some thousands.
-constexpr int most_iterations = 10'000;
 
 /// Solves for the change of the velocities of a net, in memory that it keeps for the next.
 class NetSolver {
@@ -44,9 +39,9 @@ class NetSolver {
     p_ = y_;
     double ry = r_.dot(y_);
     SpringNet::Report report;
-    while (report.iterations < most_iterations) {
+    while (report.iterations < tolerances::most_net_iterations) {
       report.residual = residual(r_);
-      if (!(report.residual > accuracy) || !(ry > 0)) break;
+      if (!(report.residual > tolerances::net_residual) || !(ry > 0)) break;
       if (report.iterations % 64 == 63 && stop_requested()) break;
       multiply(p_, product_);
       const double alpha = ry / p_.dot(product_);

@@ -3,15 +3,13 @@
 #include "engine/core/disjoint_sets.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/forces/anchor.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-/// SpringNet::ease of nets with meshes: 1/(6 - sqrt(32)) - 1 [-].
-constexpr double stiff_ease = 1.914213562373095;
 
 /// Where an anchor is, and what moves with it.
 struct Held {
@@ -344,7 +342,7 @@ void pull_springs(const NetSprings& springs, const ForceContext& context,
   for (size_t n = 0; n < nets.size(); ++n) {
     if (stop_requested()) return;
     if (nets[n].meshed) {
-      nets[n].net.ease = stiff_ease;
+      nets[n].net.ease = tolerances::stiff_ease;
       nets[n].net.solve_meshed(answers[n]);
       take_answer(nets[n], answers[n], springs, out);
       continue;

@@ -1,6 +1,7 @@
 #include "engine/dynamics/forces/turbulence.hpp"
 
 #include "engine/core/work_meter.hpp"
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <cmath>
@@ -8,11 +9,6 @@
 
 namespace tumble {
 namespace {
-
-/// Root mean square of curl_noise over space and lattices. With f the fade over [-1, 1] and A, B,
-/// C, D the integrals of f^2, t^2 f^2, f'^2, t^2 f'^2 its square is 2 (A^2 D + 2 A B C), for
-/// entries of the gradients uniform in [-1, 1].
-constexpr double curl_rms = 1.220077940729918;
 
 uint64_t mixed(uint64_t z) {  // splitmix64 (Steele, Lea, Flood 2014)
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -114,7 +110,7 @@ TurbulenceDef::Flow TurbulenceDef::at(double t) const {
   Flow flow{octaves, size, 0, seed, {}, {}};
   double power = 0;
   for (int i = 0; i < octaves; ++i) power += det::pow(0.5, 2.0 / 3 * i);
-  flow.scale = speed / (curl_rms * std::sqrt(power));
+  flow.scale = speed / (tolerances::curl_rms * std::sqrt(power));
   const double turned = period > 0 ? 2 * det::pi * t / period : 0;
   for (int i = 0; i < phases; ++i) {
     const double angle = turned + 2 * det::pi * i / phases;
@@ -125,15 +121,13 @@ TurbulenceDef::Flow TurbulenceDef::at(double t) const {
 }
 
 Vec3 TurbulenceDef::Flow::operator()(const Vec3& x) const {
-  constexpr double slower = 0.79370052598409974;  // 2^(-1/3)
   Vec3 sum = Vec3::Zero();
   double weight = scale, spacing = size;
   for (int i = 0; i < octaves; ++i) {
-    // Points of the lattice are whole numbers, which hold to 2^53; nothing is that far away.
     const Vec3 p = x / spacing;
-    if (!(p.cwiseAbs().maxCoeff() < 1e15)) return Vec3::Zero();
+    if (!(p.cwiseAbs().maxCoeff() < tolerances::farthest_lattice)) return Vec3::Zero();
     sum += weight * curl_noise(p, mixed(seed + 0x9e3779b97f4a7c15ULL * uint64_t(i + 1)), *this);
-    weight *= slower;
+    weight *= tolerances::octave_speed;
     spacing *= 0.5;
   }
   return sum;

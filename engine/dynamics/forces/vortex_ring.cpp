@@ -1,5 +1,6 @@
 #include "engine/dynamics/forces/vortex_ring.hpp"
 
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace tumble {
 
 std::string VortexRingDef::fault() const {
-  if (!(axis.norm() > 1e-12)) return "axis must not be zero";
+  if (!(axis.norm() > tolerances::no_axis)) return "axis must not be zero";
   if (!(core_radius < 0.5 * radius))
     return "core_radius must be less than half the radius: the ring is thin";
   return {};
@@ -26,7 +27,8 @@ VortexRingDef::Flow VortexRingDef::at(double t) const {
     const double left = det::exp(-decay * age);
     // Integral of the speed, by its series where the difference would lose digits.
     const double s = decay * age;
-    const double way = s < 1e-4 ? age * (1 - s / 2 * (1 - s / 3)) : (1 - left) / decay;
+    const double way =
+        s < tolerances::exponential_series ? age * (1 - s / 2 * (1 - s / 3)) : (1 - left) / decay;
     flow.rings[size_t(flow.count++)] = {centre + speed() * way * flow.axis,
                                         circulation * left / (2 * det::pi)};
   }
@@ -56,7 +58,7 @@ Vec3 VortexRingDef::Flow::of_ring(const Ring& ring, const Vec3& x) const {
   const double along = factor / p * (f.k + (big2 - r2 - q2) / near2 * f.e);
   // Over r, which near the axis is the limit: there the difference would lose all digits.
   const double out =
-      r > 1e-4 * radius
+      r > tolerances::near_ring_axis * radius
           ? factor * z / (r2 * p) * (-f.k + (big2 + r2 + q2) / near2 * f.e)
           : 1.5 * det::pi * factor * big2 * z / ((big2 + q2) * (big2 + q2) * std::sqrt(big2 + q2));
   return along * axis + out * radial;
@@ -65,7 +67,7 @@ Vec3 VortexRingDef::Flow::of_ring(const Ring& ring, const Vec3& x) const {
 EllipticIntegrals elliptic_integrals(double m) {
   double a = 1, b = std::sqrt(1 - m), c = std::sqrt(m), power = 0.5, sum = 0.5 * m;
   // Quadratic convergence: digits double in each round.
-  for (int round = 0; round < 12 && c > 1e-9 * a; ++round) {
+  for (int round = 0; round < 12 && c > tolerances::equal_means * a; ++round) {
     c = 0.5 * (a - b);
     const double mean = 0.5 * (a + b);
     b = std::sqrt(a * b);

@@ -1,5 +1,6 @@
 #include "engine/dynamics/forces/weave.hpp"
 
+#include "engine/dynamics/forces/tolerances.hpp"
 #include "engine/math/det/det.hpp"
 
 #include <algorithm>
@@ -10,14 +11,6 @@
 
 namespace tumble {
 namespace {
-
-/// Most nodes of one weave [-].
-constexpr double most_nodes = 1e6;
-/// Cosine up to which two sides are at right angles [-].
-constexpr double right_angle = 1e-6;
-/// Radius of the particles of a sheet, in spacings [-]. Four of them leave a hole of a radius of
-/// 0.31 spacings, through which none of them fits; neighbours do not touch at rest.
-constexpr double radius_in_spacings = 0.4;
 
 Error refused(std::string message) {
   return {ErrorCode::invalid_argument, std::move(message), {}, {}};
@@ -35,14 +28,14 @@ double damping_of(double ratio, double stiffness, double mass) {
 }
 
 Status check_sheet(const Sheet& s) {
-  if (s.rows < 2 || s.columns < 2 || double(s.rows) * s.columns > most_nodes)
+  if (s.rows < 2 || s.columns < 2 || double(s.rows) * s.columns > tolerances::most_weave_nodes)
     return refused(
         fmt::format("{} rows and {} columns: a sheet has two and more of each, and up to "
                     "{} nodes",
-                    s.rows, s.columns, most_nodes));
+                    s.rows, s.columns, tolerances::most_weave_nodes));
   if (!s.corner.allFinite() || !positive(s.across.norm()) || !positive(s.down.norm()))
     return refused("corner, across and down must be finite, and across and down have a length");
-  if (std::fabs(s.across.normalized().dot(s.down.normalized())) > right_angle)
+  if (std::fabs(s.across.normalized().dot(s.down.normalized())) > tolerances::right_angle)
     return refused("across and down are not at right angles");
   if (!not_negative(s.damping_ratio) || !not_negative(s.radius))
     return refused(
@@ -70,8 +63,9 @@ void add_nodes(const Sheet& s, const Mass& mass, Weave& out) {
   ParticleDef particle;
   particle.v = s.velocity;
   particle.colour = s.colour;
-  particle.radius =
-      s.radius > 0 ? s.radius : radius_in_spacings * std::min(s.cell_across(), s.cell_down());
+  particle.radius = s.radius > 0
+                        ? s.radius
+                        : tolerances::radius_in_spacings * std::min(s.cell_across(), s.cell_down());
   for (int r = 0; r < s.rows; ++r)
     for (int c = 0; c < s.columns; ++c) {
       if (const WeavePin* pin = pinned[size_t(s.node(r, c))]) {
@@ -168,11 +162,12 @@ void add_faces(const Sheet& s, Weave& out) {
 
 Status check_rope(const RopeDef& d) {
   if (d.places.size() < 2) return refused("a rope needs two places and more");
-  if (d.segments < 1 || double(d.segments) * double(d.places.size() - 1) > most_nodes)
+  if (d.segments < 1 ||
+      double(d.segments) * double(d.places.size() - 1) > tolerances::most_weave_nodes)
     return refused(
         fmt::format("{} segments: there may be 1 and more between two places, and {} in "
                     "all",
-                    d.segments, most_nodes));
+                    d.segments, tolerances::most_weave_nodes));
   for (size_t i = 0; i < d.places.size(); ++i) {
     if (!d.places[i].x.allFinite()) return refused("a place is not finite");
     if (d.places[i].loose && i > 0 && i + 1 < d.places.size())
@@ -280,12 +275,11 @@ std::vector<Vec3> hanging_points(const Vec3& a, const Vec3& b, const Vec3& down,
   const double length = slack * chord.norm(), drop = g.dot(chord);
   const Vec3 level = chord - drop * g;
   const double span = level.norm();
-  constexpr double none = 1e-9;
   for (int i = 0; i <= segments; ++i) {
     const double s = length * i / segments;  // along the chain
-    if (!(slack > 1 + none)) {
+    if (!(slack > 1 + tolerances::no_sag)) {
       out.push_back(a + chord * (double(i) / segments));
-    } else if (!(span > none * length)) {
+    } else if (!(span > tolerances::no_sag * length)) {
       // Straight down and up again.
       const double lowest = 0.5 * (length + drop);
       out.push_back(a + std::min(s, lowest) * g - std::max(0.0, s - lowest) * g);

@@ -9,9 +9,6 @@ namespace tumble {
 
 namespace {
 
-/// Work of a joint, in products [-].
-constexpr uint64_t factor_price = 400, solve_price = 100;
-
 /// Calls f with the number as a constant.
 template <class F>
 void with_freedoms(uint8_t freedoms, const F& f) {
@@ -141,7 +138,7 @@ void FoldedTrees::eliminate(Link& link, const Tensor& tensor, std::span<const Jo
 
 void FoldedTrees::factor(std::span<const JointRow> rows, std::span<const double> give,
                          std::span<const DofBlock> blocks, std::span<const Mat3> inertias) {
-  charge_work(factor_price, joints_.size());
+  charge_work(tolerances::folded_factor_price, joints_.size());
   const folding::Bodies bodies{blocks, inertias};
   for (size_t i = 0; i < blocks_.size(); ++i) bodies.tensor(blocks_[i], tensors_[i]);
   for (size_t i = 0; i < joints_.size(); ++i) {
@@ -202,7 +199,7 @@ void FoldedTrees::gather(const Link& link, const Six& push, std::span<const doub
 }
 
 void FoldedTrees::gather(std::span<const double> change) const {
-  charge_work(solve_price, joints_.size());
+  charge_work(tolerances::folded_solve_price, joints_.size());
   for (Six& p : pushes_) p.fill(0);
   for (size_t i = 0; i < joints_.size(); ++i) {
     const Link& link = joints_[i];

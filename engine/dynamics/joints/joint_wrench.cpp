@@ -12,9 +12,6 @@ namespace tumble {
 namespace {
 
 constexpr uint32_t body_freedoms = 6;
-/// The normal equations have the square of the rows' condition: so many solves bring what they
-/// leave to rounding.
-constexpr int most_passes = 4;
 
 /// The rows as a matrix G from displacements of bodies to rows, all in metres: forces by row are G
 /// times displacements where every joint is as stiff as every other.
@@ -159,7 +156,8 @@ void take_least_forces(const Articulation& joints, std::span<const DofBlock> blo
   const double size = greatest(given);
   std::vector<double> left(rows.freedoms(), 0.0);
   rows.add_pushes(given, 1, left);
-  for (int pass = 0; pass < most_passes && greatest(left) > tolerances::reaction_rounding * size;
+  for (int pass = 0; pass < tolerances::most_reaction_passes &&
+                     greatest(left) > tolerances::reaction_rounding * size;
        ++pass) {
     rows.add_forces(left, least);
     std::fill(left.begin(), left.end(), 0.0);

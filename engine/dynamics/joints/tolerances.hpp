@@ -20,6 +20,9 @@ inline constexpr double reaction_rounding = 1e-14;
 /// More than this, likewise, and bodies would move otherwise: the reactions stay what they were
 /// [-].
 inline constexpr double reaction_left = 1e-10;
+/// The normal equations of such reactions have the square of the rows' condition: so many solves
+/// bring what they leave to rounding [-].
+inline constexpr int most_reaction_passes = 4;
 
 /// How much greater the greatest moment of inertia of a body may be than the least for its joint to
 /// be folded into it: the tensor's last digits are then small beside the least [-].
@@ -28,6 +31,9 @@ inline constexpr double most_moment_ratio = 1e6;
 inline constexpr double no_pivot = 1e-14;
 /// A row along a coordinate that others of its joint hold has as little left, likewise [-].
 inline constexpr double no_drive = 1e-9;
+
+/// Work of a joint of a folded tree, to factor and to solve [products].
+inline constexpr unsigned folded_factor_price = 400, folded_solve_price = 100;
 
 /// Sine of the angle between two axes below which no direction is across both of them: a thousand
 /// million roundings [-].

@@ -1,5 +1,7 @@
 #include "engine/math/lcp/problem.hpp"
 
+#include "engine/math/lcp/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,7 +78,7 @@ Status check_group(const LcpProblem& p, size_t k, std::vector<bool>& used) {
   if (g.mode == ConeMode::sliding) {
     const double length =
         std::sqrt(g.direction[0] * g.direction[0] + g.direction[1] * g.direction[1]);
-    if (!(std::fabs(length - 1) < 1e-9))
+    if (!(std::fabs(length - 1) < tolerances::direction_length))
       return bad(fmt::format("direction of sliding group {} has length {}, not 1", k, length));
   }
   return {};
@@ -119,7 +121,7 @@ Status check_symmetric(const LcpProblem& p) {
       for (int j = jb; j < std::min(n, jb + block); ++j)
         for (int i = ib; i < std::min(j, ib + block); ++i) {
           const double d = p.A(i, j) - p.A(j, i);
-          if (d != 0 && d * d > 1e-20 * std::fabs(p.A(i, i) * p.A(j, j)))
+          if (d != 0 && d * d > tolerances::asymmetry2 * std::fabs(p.A(i, i) * p.A(j, j)))
             return bad(fmt::format("A is not symmetric: A[{0},{1}] = {2}, A[{1},{0}] = {3}", i, j,
                                    p.A(i, j), p.A(j, i)),
                        "use lemke for general matrices");

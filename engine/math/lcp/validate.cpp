@@ -3,6 +3,7 @@
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/cone.hpp"
 #include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +137,7 @@ void grade(const LcpResidual& r, double rest_unit, double tolerance, LcpSolution
   s.report.residual = r.worst();
   s.report.complementarity = r.complementarity;
   if (!s.report.solved()) return;
-  const bool tiny = r.worst() * r.unit <= 1e-6 * rest_unit;
+  const bool tiny = r.worst() * r.unit <= tolerances::of_rest_terms * rest_unit;
   if (!(r.worst() <= tolerance) || !tiny) s.report.status = LcpStatus::numeric;
 }
 

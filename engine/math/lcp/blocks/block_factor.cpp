@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace tumble::lcp {
 namespace {
 
 constexpr int side = BlockFactor::width;
-constexpr double rank_lost = 1e-15;  ///< of the greatest entry of the block
 
 /// c -= a b
 void subtract_product(const double* a, const double* b, double* __restrict c) {
@@ -35,7 +35,7 @@ bool factor_dense(double* a, std::array<int, side>& swaps) {
     for (int i = k + 1; i < side; ++i)
       if (std::fabs(a[side * k + i]) > std::fabs(a[side * k + row])) row = i;
     swaps[size_t(k)] = row;
-    if (!(std::fabs(a[side * k + row]) > rank_lost * most)) return false;
+    if (!(std::fabs(a[side * k + row]) > tolerances::block_rank_lost * most)) return false;
     if (row != k)
       for (int j = 0; j < side; ++j) std::swap(a[side * j + k], a[side * j + row]);
     for (int i = k + 1; i < side; ++i) a[side * k + i] /= a[side * k + k];

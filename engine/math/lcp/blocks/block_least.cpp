@@ -2,15 +2,13 @@
 
 #include "engine/math/lcp/blocks/block_factor.hpp"
 #include "engine/math/lcp/blocks/block_units.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace tumble::lcp {
 namespace {
-
-constexpr double first_weight = 1e-7;
-constexpr int most_passes = 12;
 
 /// 1 + G^T G / weight
 bool factor_normal(const BlockUnits& units, int blocks, BlockFactor& factor) {
@@ -26,7 +24,8 @@ bool factor_normal(const BlockUnits& units, int blocks, BlockFactor& factor) {
         for (size_t r = 0; r < size_t(units.parts[k].count); ++r)
           for (size_t c = 0; c < 6; ++c)
             for (size_t i = 0; i < 6; ++i)
-              m[6 * c + i] += e.g[s][6 * r + i] * (e.g[t][6 * r + c] / first_weight);
+              m[6 * c + i] +=
+                  e.g[s][6 * r + i] * (e.g[t][6 * r + c] / tolerances::least_squares_weight);
         factor.add(e.block[s], e.block[t], m.data());
       }
   }
@@ -47,14 +46,14 @@ std::vector<double> least_columns(const BlockProblem& problem, const VecX& wante
   BlockFactor factor;
   if (!factor_normal(units, problem.blocks, factor)) return x;
   double least = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < tolerances::most_least_squares_passes; ++pass) {
     std::fill(dx.begin(), dx.end(), 0.0);
     for (size_t k = 0; k < units.parts.size(); ++k) {
       const ConeUnit& unit = units.parts[k];
       Triple rest = units.rows_times(k, x);
       for (size_t r = 0; r < size_t(unit.count); ++r) {
         const auto i = size_t(unit.row[r]);
-        rest[r] = (wanted[unit.row[r]] * units.d[i] - rest[r]) / first_weight;
+        rest[r] = (wanted[unit.row[r]] * units.d[i] - rest[r]) / tolerances::least_squares_weight;
       }
       units.add_rows(k, rest, dx);
     }
@@ -64,7 +63,7 @@ std::vector<double> least_columns(const BlockProblem& problem, const VecX& wante
     if (!(moved < 0.25 * least)) break;
     least = moved;
     for (size_t k = 0; k < x.size(); ++k) x[k] += dx[k];
-    if (moved <= 1e-30 * sum_of_squares(x)) break;
+    if (moved <= tolerances::least_squares_still * sum_of_squares(x)) break;
   }
   return x;
 }

@@ -3,12 +3,12 @@
 #include "engine/math/lcp/blocks/block_system.hpp"
 #include "engine/math/lcp/interior/path_follower.hpp"
 #include "engine/math/lcp/newton/semismooth_newton.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 namespace tumble::lcp {
 namespace {
 
 constexpr NewtonLimits block_limits{40, 400, 2600};
-constexpr double block_path_weight = 1e-7;  ///< of a diagonal of about 1
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Result<LcpSolution> block_newton(const BlockProblem& problem, const LcpOptions& 
 Result<LcpSolution> block_interior(const BlockProblem& problem, const LcpOptions& options) {
   if (Status c = check(problem); !c) return c.error();
   BlockSystem system(problem);
-  return solve_along_path(system, options, block_path_weight, options.tolerance);
+  return solve_along_path(system, options, tolerances::block_path_weight, options.tolerance);
 }
 
 }  // namespace tumble::lcp

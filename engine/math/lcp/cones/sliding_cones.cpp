@@ -2,18 +2,12 @@
 
 #include "engine/math/lcp/interior/cone_interior.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
 
 namespace tumble::lcp {
-namespace {
-
-constexpr double off_balance = 1e-8;  ///< of the greatest |b|, in units of the diagonal of A
-constexpr double fast_slip = 1e4;     ///< of the greatest |b|
-
-}  // namespace
-
 bool slides(const LcpProblem& problem) {
   return std::any_of(problem.groups.begin(), problem.groups.end(),
                      [](const ConeGroup& g) { return g.mode == ConeMode::sliding; });
@@ -21,12 +15,13 @@ bool slides(const LcpProblem& problem) {
 
 bool balances(const LcpProblem& problem, const LcpSolution& solution) {
   const double alone = term_unit(problem, VecX::Zero(problem.size()));
-  return solution.report.residual * term_unit(problem, solution.z) <= off_balance * alone;
+  return solution.report.residual * term_unit(problem, solution.z) <=
+         tolerances::off_balance * alone;
 }
 
 Result<LcpSolution> solve_from_fast_slip(const LcpProblem& problem, bool few) {
   LcpProblem fast = problem;
-  const double speed = fast_slip * problem.b.cwiseAbs().maxCoeff();
+  const double speed = tolerances::fast_slip * problem.b.cwiseAbs().maxCoeff();
   for (ConeGroup& g : fast.groups) {
     if (g.mode != ConeMode::sliding) continue;
     g.mode = ConeMode::undecided;

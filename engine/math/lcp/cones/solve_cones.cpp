@@ -9,16 +9,13 @@
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/dantzig.hpp"
 #include "engine/math/lcp/pivoting/enumeration.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace tumble::lcp {
 namespace {
-
-constexpr double sharp = 1e-12;       ///< residual that is sought where Newton's method is at home
-constexpr int first_systems = 60;     ///< of blocks, after which it has stalled
-constexpr int patient_systems = 400;  ///< of blocks, where the path does not answer
 
 /// What the solver can take at all: groups are more than bounds.
 bool takes(const LcpSolverEntry& solver, const LcpProblem& problem) {
@@ -62,7 +59,7 @@ Result<LcpSolution> solve_as_asked(const ConeTask& t) {
 
 LcpOptions block_options(const ConeTask& t, int systems) {
   LcpOptions out;
-  out.tolerance = std::min(sharp, t.tolerance);
+  out.tolerance = std::min(tolerances::sharp_residual, t.tolerance);
   out.max_iterations = systems;
   return out;
 }
@@ -77,7 +74,7 @@ Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
   options.tolerance = t.tolerance;
   if (t.start.size() > 0) {
     LcpOptions near = options;
-    near.tolerance = sharp;
+    near.tolerance = tolerances::sharp_residual;
     Result<LcpSolution> solved = cone_newton_from(t.problem, near, t.start);
     if (!solved || solved->report.solved()) return solved;
   }
@@ -172,7 +169,8 @@ void ConeStages::make_least() {
 const std::vector<ConeStage>& all_cone_stages() {
   static const std::vector<ConeStage> list{
       {"asked", is_asked, solve_as_asked},
-      {"blocks", has_blocks, [](const ConeTask& t) { return newton_by_blocks(t, first_systems); },
+      {"blocks", has_blocks,
+       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::first_block_systems); },
        false},
       {"block_path", has_blocks,
        [](const ConeTask& t) { return block_interior(*t.blocks, block_options(t, 0)); }, false},
@@ -180,7 +178,8 @@ const std::vector<ConeStage>& all_cone_stages() {
       {"pivots", [](const ConeTask&) { return true; },
        [](const ConeTask& t) { return solve_without_laterals(t.problem); }},
       {"patient_blocks", has_blocks,
-       [](const ConeTask& t) { return newton_by_blocks(t, patient_systems); }, false},
+       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::patient_block_systems); },
+       false},
       {"path", has_blocks, [](const ConeTask& t) { return cone_interior(t.problem); }},
       {"matrix_newton", is_few_in_blocks, newton_with_matrix},
       {"fast_slip", is_sliding,

@@ -4,6 +4,7 @@
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/interior/smoothed_map.hpp"
 #include "engine/math/lcp/newton/semismooth_newton.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,7 @@
 namespace tumble::lcp {
 namespace {
 
-constexpr int most_path_systems = 300;
-constexpr int most_at_once = 12;   ///< Newton steps for one smoothing
-constexpr double near_path = 0.5;  ///< |F|, of the smoothing, where the path counts as reached
-constexpr double fastest = 0.05, slowest = 0.97;  ///< factors of the smoothing from step to step
 constexpr NewtonLimits end_limits{60, 60, 2600};
-constexpr double farthest = 1e6;  ///< smoothing at which the path is sought, of the greatest |b|
 
 class PathFollower {
  public:
@@ -28,9 +24,10 @@ class PathFollower {
         w_(system.size()),
         f_(system.size()),
         best_(system.size()),
-        goal_(std::min(1e-13, options.tolerance)),
+        goal_(std::min(tolerances::best_residual, options.tolerance)),
         enough_(0.1 * options.tolerance),
-        limit_(options.max_iterations > 0 ? options.max_iterations : most_path_systems) {
+        limit_(options.max_iterations > 0 ? options.max_iterations
+                                          : tolerances::most_path_systems) {
     for (const double b : system.b()) scale_ = std::max(scale_, std::fabs(b));
     if (scale_ == 0) scale_ = 1;
   }
@@ -69,20 +66,21 @@ double PathFollower::evaluate(const VecX& z, double smoothing) {
 bool PathFollower::reach(VecX& z, double smoothing) {
   double now = evaluate(z, smoothing);
   VecX dz, trial;
-  for (int k = 0; k < most_at_once && system_.systems < limit_ && !stop_requested(); ++k) {
-    if (now <= near_path * smoothing) return true;
+  for (int k = 0; k < tolerances::most_path_steps && system_.systems < limit_ && !stop_requested();
+       ++k) {
+    if (now <= tolerances::near_path * smoothing) return true;
     if (!system_.step(values_, f_, weight_, dz)) return false;
     double t = 1, next = 0;
     for (int half = 0; half < 20; ++half, t *= 0.5) {
       trial = z + t * dz;
       next = evaluate(trial, smoothing);
-      if (next <= (1 - 1e-4 * t) * now) break;
+      if (next <= (1 - tolerances::path_descent * t) * now) break;
     }
     if (!(next < now)) return false;
     z = trial;
     now = next;
   }
-  return now <= near_path * smoothing;
+  return now <= tolerances::near_path * smoothing;
 }
 
 bool PathFollower::consider(const VecX& z) {
@@ -95,25 +93,26 @@ void PathFollower::follow() {
   bool done = consider(z);
   VecX there = z;
   double smoothing = scale_, factor = 0.2, reached = 0;
-  while (!done && system_.systems < limit_ && smoothing > 1e-16 * scale_ && !stop_requested()) {
+  while (!done && system_.systems < limit_ && smoothing > tolerances::path_end * scale_ &&
+         !stop_requested()) {
     const int before = system_.systems;
     if (reach(z, smoothing)) {
       there = z;
       reached = smoothing;
       done = consider(z);
-      if (system_.systems - before <= 4) factor = std::max(fastest, 0.5 * factor);
+      if (system_.systems - before <= 4) factor = std::max(tolerances::fastest_path, 0.5 * factor);
     } else if (reached == 0) {
       // The path is easy to find far from its end, where nothing but the smoothing counts.
       z = there;
       smoothing *= 10;
-      if (smoothing > farthest * scale_) return;
+      if (smoothing > tolerances::farthest_path * scale_) return;
       continue;
     } else {
       // Rows that nearly depend on others end it sooner than rounding does.
-      if (best_.residual <= enough_ || reached <= 1e-12 * scale_) return;
+      if (best_.residual <= enough_ || reached <= tolerances::nearly_path_end * scale_) return;
       z = there;
       factor = std::sqrt(factor);
-      if (factor > slowest) return;
+      if (factor > tolerances::slowest_path) return;
     }
     smoothing = reached * factor;
   }

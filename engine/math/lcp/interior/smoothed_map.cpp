@@ -1,5 +1,7 @@
 #include "engine/math/lcp/interior/smoothed_map.hpp"
 
+#include "engine/math/lcp/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +53,7 @@ void cone_part(const Triple& v, double t, Triple& value, Square& slope) {
   const double half_difference = 0.5 * (high.value - low.value);
   value = {half_sum, half_difference * c, half_difference * s};
   const double mean = 0.5 * (low.slope + high.slope), tilt = 0.5 * (high.slope - low.slope);
-  const double across = length > 1e-8 * t ? half_difference / length : mean;
+  const double across = length > tolerances::smoothed_axis * t ? half_difference / length : mean;
   slope = {mean,
            tilt * c,
            tilt * s,  //
@@ -100,21 +102,21 @@ void add_single(const ConeUnit& unit, double z, double w, double t, UnitValue& o
 
 UnitValue smoothed_value(const ConeUnit& unit, const Triple& z, const Triple& w, double t,
                          double scale) {
-  constexpr double flat = 1e-9;  // slopes that let nothing lateral through
   UnitValue out;
   if (!unit.group) {
     add_single(unit, z[0], w[0], t, out);
     return out;
   }
   const ConeGroup& g = *unit.group;
-  if (g.mode == ConeMode::undecided && g.shape == ConeShape::circular && g.slope > flat) {
+  if (g.mode == ConeMode::undecided && g.shape == ConeShape::circular &&
+      g.slope > tolerances::flat_cone) {
     add_circular(g, z, w, t, t * t / scale, out);
     return out;
   }
   add_single(unit, z[0], w[0], t, out);
   for (size_t k = 0; k < 2; ++k) {
     const size_t r = k + 1;
-    if (g.mode == ConeMode::sliding || g.slope <= flat) {
+    if (g.mode == ConeMode::sliding || g.slope <= tolerances::flat_cone) {
       const double part = g.mode == ConeMode::sliding ? g.slope * g.direction[k] : 0;
       out.f[r] = z[r] + part * z[0];
       out.by_z[3 * r] = part;

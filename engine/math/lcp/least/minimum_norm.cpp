@@ -6,6 +6,7 @@
 #include "engine/math/lcp/least/range_basis.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
 #include "engine/math/lcp/newton/semismooth_newton.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
 
@@ -76,18 +77,20 @@ bool DualNewton::step(std::vector<double>& dy) {
   std::vector<double> h(size_t(r_) * size_t(r_));
   double size = 0;
   for (const double g : gradient_) size = std::max(size, std::fabs(g));
-  const double unit = std::max(z0_.cwiseAbs().maxCoeff(), 1e-300);
+  const double unit = std::max(z0_.cwiseAbs().maxCoeff(), tolerances::never_zero);
   for (int i = 0; i < r_; ++i) {
     charge_work(size_t(n_), size_t(r_) + 3);
     if (stop_requested()) return false;
     for (int j = 0; j < r_; ++j)
       h[size_t(j) * size_t(r_) + size_t(i)] =
           dot(q_.data() + std::ptrdiff_t(i) * n_, jq.data() + std::ptrdiff_t(j) * n_, n_);
-    h[size_t(i) * size_t(r_) + size_t(i)] += std::min(1e-2, 1e-3 * size / unit) + 1e-14;
+    h[size_t(i) * size_t(r_) + size_t(i)] +=
+        std::min(tolerances::most_dual_weight, tolerances::dual_weight * size / unit) +
+        tolerances::least_dual_weight;
   }
   for (size_t k = 0; k < dy.size(); ++k) dy[k] = -gradient_[k];
   LuFactor lu;
-  if (!lu.factor(h, r_, 1e-18)) return false;
+  if (!lu.factor(h, r_, tolerances::lost_dual_pivot)) return false;
   lu.solve(dy.data());
   return true;
 }
@@ -102,16 +105,17 @@ bool DualNewton::run(int limit) {
   for (;; ++iterations) {
     double size = 0, slope = 0;
     for (const double g : gradient_) size = std::max(size, std::fabs(g));
-    if (size <= 1e-14 * unit) return true;
-    if (iterations == limit || stop_requested() || !step(dy)) return size <= 1e-12 * unit;
+    if (size <= tolerances::least_gradient * unit) return true;
+    if (iterations == limit || stop_requested() || !step(dy))
+      return size <= tolerances::found_gradient * unit;
     for (size_t k = 0; k < dy.size(); ++k) slope += dy[k] * gradient_[k];
     double t = 1;
-    const double noise = 1e-15 * unit * unit * n_;
+    const double noise = tolerances::dual_value_rounding * unit * unit * n_;
     for (int half = 0; half < 40; ++half, t *= 0.5) {
       trial = y;
       for (size_t k = 0; k < y.size(); ++k) trial[k] += t * dy[k];
       const double next = evaluate(trial);
-      if (next <= value + 1e-4 * t * slope + noise) {
+      if (next <= value + tolerances::dual_descent * t * slope + noise) {
         value = next;
         break;
       }
@@ -131,8 +135,8 @@ Result<LcpSolution> minimum_norm(const LcpProblem& problem, const LcpSolution& s
     return out;
   const VecX w = slack(problem, solution.z);
   // What w has of rounding is relative to the terms of A z + b.
-  const double still =
-      std::max(1e-10, 10 * solution.report.residual) * term_unit(problem, solution.z);
+  const double still = std::max(tolerances::least_w_rounding, 10 * solution.report.residual) *
+                       term_unit(problem, solution.z);
   MatX basis = row_space(problem);
   if (basis.cols() == problem.size()) return out;
   DualNewton newton(std::move(basis), solution_cells(problem, solution.z, w, still), solution.z);

@@ -4,6 +4,7 @@
 #include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <cmath>
 
@@ -36,12 +37,12 @@ std::vector<int> independent_rows(const LcpProblem& p) {
     charge_work(size_t(n), 2 * size_t(n));
     int best = 0;
     for (int i = 1; i < n; ++i)
-      if (square[size_t(i)] > square[size_t(best)] * (1 + 1e-9)) best = i;
+      if (square[size_t(i)] > square[size_t(best)] * (1 + tolerances::same_column)) best = i;
     double* c = q.data() + std::ptrdiff_t(k) * n;
     for (int j = 0; j < n; ++j) c[j] = rest(j, best);
     remove_span(q, k, c);
     const double length = std::sqrt(dot(c, c, n));
-    if (!(length > 1e-10)) break;
+    if (!(length > tolerances::in_span)) break;
     for (int j = 0; j < n; ++j) c[j] /= length;
     chosen.push_back(best);
     square[size_t(best)] = -1;

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/least/solution_cell.hpp"
 
 #include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,8 @@ Point on_square_cone(const SolutionCell& s, const Point& x, Matrix& j) {
         if (side[k] != 0) continue;
         out[k + 1] = x[k + 1];
         own[k + 1][k + 1] = 1;
-        if (std::fabs(x[k + 1]) > s.slope * out[0] * (1 + 1e-14)) possible = false;
+        if (std::fabs(x[k + 1]) > s.slope * out[0] * (1 + tolerances::pyramid_rounding))
+          possible = false;
       }
       if (!possible) continue;
       double apart = 0;

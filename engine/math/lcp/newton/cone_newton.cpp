@@ -4,6 +4,7 @@
 #include "engine/math/lcp/newton/semismooth_newton.hpp"
 #include "engine/math/lcp/pivoting/ldl.hpp"
 #include "engine/math/lcp/system/dense_system.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace {
 
 constexpr NewtonLimits dense_limits{60, 1000, 20000};
 constexpr NewtonLimits polish_limits{60, 60, 0};
-constexpr double lost_row = 1e-9;  ///< of a diagonal of about 1
-constexpr int most_refinements = 4;
 
 /// L D L^T of the rows of groups and of free unknowns, made regular; false where some depend on
 /// others.
@@ -34,7 +33,7 @@ bool factor_inside(const DenseSystem& system, LdlFactor& factor) {
     for (size_t k = 0; k < members.size(); ++k) y[k] = p.column(i)[members[k]];
     factor.forward(y.data());
     const double left = factor.remainder(p.at(i, i) + SemismoothNewton::usual_weight, y.data());
-    if (!(left > lost_row)) return false;
+    if (!(left > tolerances::lost_row)) return false;
     factor.append(i, y.data(), left);
   }
   return true;
@@ -51,7 +50,7 @@ bool start_inside(DenseSystem& system, SemismoothNewton& newton, VecX& z) {
   std::vector<double> y(static_cast<size_t>(system.size()));
   const Proximal none{0, z};
   VecX w(z.size());
-  for (int pass = 0; pass < most_refinements; ++pass) {
+  for (int pass = 0; pass < tolerances::most_refinements; ++pass) {
     const double before = newton.best().residual;
     system.slack(z, none, w);
     for (size_t k = 0; k < members.size(); ++k) y[k] = -w[members[k]];
@@ -59,7 +58,8 @@ bool start_inside(DenseSystem& system, SemismoothNewton& newton, VecX& z) {
     for (size_t k = 0; k < members.size(); ++k) z[members[k]] += y[k];
     if (newton.consider(z)) return true;
     const double now = newton.best().residual;
-    if (pass == 0 ? now > 1e-3 : now > 0.1 * before) break;
+    if (pass == 0 ? now > tolerances::refinable_residual : now > tolerances::refined_share * before)
+      break;
   }
   return false;
 }

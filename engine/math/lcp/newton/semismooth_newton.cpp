@@ -3,30 +3,17 @@
 #include "engine/core/stop.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/newton/natural_map.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace tumble::lcp {
-namespace {
-
-constexpr double best_goal = 1e-13;  ///< residual that rounding allows
-constexpr double good_enough = 100;  ///< of that: a start is not sought anew for less
-constexpr double rounding = 1e-30;   ///< of the merit, of the square of a term
-constexpr int most_proximal_steps = 60;
-constexpr int most_idle = 3;  ///< proximal steps that do not halve the residual
-constexpr int most_halvings = 12;
-constexpr double descent = 1e-3;        ///< share of the predicted descent that is asked for
-constexpr double least_descent = 1e-6;  ///< below it Newton's method has stalled
-constexpr double diverged = 1e100;      ///< change of an unknown by a sweep
-
-}  // namespace
-
 SemismoothNewton::SemismoothNewton(ConeSystem& system, const NewtonLimits& limits,
                                    const LcpOptions& options)
     : system_(system),
       limits_(limits),
-      goal_(std::min(best_goal, options.tolerance)),
+      goal_(std::min(tolerances::best_residual, options.tolerance)),
       limit_(options.max_iterations > 0 ? options.max_iterations : limits.systems),
       first_system_(system.systems),
       about_{0, VecX::Zero(system.size())},
@@ -65,21 +52,22 @@ bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
 bool SemismoothNewton::converge(VecX& z) {
   VecX dz(z.size()), trial;
   double now = evaluate(z);
-  const double term = system_.least_term(z), size = rounding * term * term;
+  const double term = system_.least_term(z), size = tolerances::merit_rounding * term * term;
   for (int k = 0; k < limits_.steps && may_go_on() && !stop_requested(); ++k) {
     if (!(now > size)) return true;
     if (!step(z, false, dz)) return false;
     double t = 1, least = std::numeric_limits<double>::infinity(), best_t = 0;
-    for (int half = 0; half < most_halvings; ++half, t *= 0.5) {
+    for (int half = 0; half < tolerances::most_newton_halvings; ++half, t *= 0.5) {
       trial = z + t * dz;
       const double next = evaluate(trial);
       if (next < least) {
         least = next;
         best_t = t;
       }
-      if (next <= (1 - descent * t) * now) break;
+      if (next <= (1 - tolerances::newton_descent * t) * now) break;
     }
-    if (!(least < now * (1 - least_descent))) return now <= 1e6 * size;
+    if (!(least < now * (1 - tolerances::least_descent)))
+      return now <= tolerances::stalled_merit * size;
     z += best_t * dz;
     now = evaluate(z);
   }
@@ -98,7 +86,9 @@ bool SemismoothNewton::attempt(VecX z, double weight, bool about_zero) {
   else
     about_.centre = z;
   int idle = 0;
-  for (int k = 0; k < most_proximal_steps && idle < most_idle && !stop_requested(); ++k) {
+  for (int k = 0; k < tolerances::most_proximal_steps && idle < tolerances::most_idle_steps &&
+                  !stop_requested();
+       ++k) {
     const bool converged = converge(z);
     const double before = best_.residual;
     if (consider(z)) return true;
@@ -106,7 +96,7 @@ bool SemismoothNewton::attempt(VecX z, double weight, bool about_zero) {
     idle = best_.residual > 0.5 * before ? idle + 1 : 0;
     about_.centre = z;
   }
-  return best_.residual <= good_enough * goal_;
+  return best_.residual <= tolerances::good_enough * goal_;
 }
 
 bool SemismoothNewton::attempt_inside() {
@@ -122,10 +112,10 @@ bool SemismoothNewton::attempt_after_sweeps(VecX z) {
     double moved = 1;
     for (int k = 0; k < sweeps && moved > 0; ++k) {
       moved = system_.sweep(z);
-      if (!(moved < diverged) || stop_requested()) return false;
+      if (!(moved < tolerances::diverged_sweep) || stop_requested()) return false;
     }
     if (consider(z) || attempt(z)) return true;
-    for (const double weight : {1e-4, 1e-2, 1e-10})
+    for (const double weight : tolerances::other_weights)
       if (attempt(z, weight, false)) return true;
   }
   return false;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/math/lcp/system/cone_system.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 namespace tumble::lcp {
 
@@ -14,7 +15,7 @@ struct NewtonLimits {
 /// best point. Points are in scaled units.
 class SemismoothNewton {
  public:
-  static constexpr double usual_weight = 1e-7;  ///< of a diagonal of about 1
+  static constexpr double usual_weight = tolerances::usual_weight;
 
   SemismoothNewton(ConeSystem& system, const NewtonLimits& limits, const LcpOptions& options);
 

@@ -1,11 +1,11 @@
 #include "engine/math/lcp/pivoting/block_start.hpp"
 
+#include "engine/math/lcp/tolerances.hpp"
+
 #include <cmath>
 
 namespace tumble::lcp {
 namespace {
-
-constexpr double least_pivot = 1e-9;  // of a diagonal of about 1: left to be driven, with more care
 
 void find_beyond(const PivotState& s, double tolerance, std::vector<int>& positions) {
   positions.clear();
@@ -34,7 +34,7 @@ void restore_bounds(PivotState& s) {
 
 void block_start(PivotState& s) {
   for (int i = 0; i < s.n; ++i)
-    if (s.role[size_t(i)] == Role::resting) s.enter(i, least_pivot);
+    if (s.role[size_t(i)] == Role::resting) s.enter(i, tolerances::least_start_pivot);
   s.solve();
   std::vector<int> out, in;
   size_t best = size_t(s.n) + 1;
@@ -51,7 +51,7 @@ void block_start(PivotState& s) {
     }
     s.leave_many(out);
     bool changed = !out.empty();
-    for (const int i : in) changed |= s.enter(i, least_pivot);
+    for (const int i : in) changed |= s.enter(i, tolerances::least_start_pivot);
     if (!changed) break;
     s.solve();
   }

@@ -2,6 +2,7 @@
 
 #include "engine/math/lcp/pivoting/block_start.hpp"
 #include "engine/math/lcp/pivoting/pivot_driver.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out,
 /// problems with `weight` times the identity added, each about the solution of the last, has
 /// no such pivots, and where it converges the addition has vanished (Rockafellar 1976).
 bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit, LcpSolution& out) {
-  constexpr double weight = 2e-9;  // of a diagonal of about 1
+  constexpr double weight = tolerances::dantzig_weight;
   ScaledProblem near = scaled;
   for (int i = 0; i < scaled.n; ++i) near.A[size_t(i) * size_t(scaled.n) + size_t(i)] += weight;
   LcpSolution next = out;
@@ -36,7 +37,7 @@ bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit,
     const double residual = validate(problem, next.z).worst();
     idle = residual < 0.5 * best ? 0 : idle + 1;
     if (residual < best) best = residual, out.z = next.z;
-    if (best <= 1e-13) break;
+    if (best <= tolerances::best_residual) break;
     for (int i = 0; i < scaled.n; ++i)
       near.b[i] = scaled.b[i] - weight * (next.z[i] / scaled.d[size_t(i)]);
   }
@@ -57,7 +58,7 @@ Result<LcpSolution> pivot_and_check(const LcpProblem& problem, const LcpOptions&
   LcpSolution out;
   out.report.solver = "dantzig";
   LcpStatus first = pivot(scaled, limit, out, trace);
-  if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= 1e-9))
+  if (first == LcpStatus::infeasible && !(ray_residual(problem, out.ray) <= tolerances::ray_proof))
     first = LcpStatus::ray;
   out.report.status = first;
   grade(problem, options.tolerance, out);

@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/math/lu.hpp"
 
@@ -12,8 +13,7 @@
 namespace tumble::lcp {
 namespace {
 
-constexpr double most_assignments = 531441;  ///< 3^12
-constexpr int few_unknowns = 8;              ///< beside lateral ones
+constexpr int few_unknowns = 8;  ///< beside lateral ones
 
 /// What one unknown may be: at a bound, resting at 0 (free ones only), or solved for (NaN).
 std::vector<double> choices_of(const ScaledProblem& p, int i) {
@@ -43,7 +43,7 @@ bool fill_in(const ScaledProblem& p, VecX& z) {
     for (int l = 0; l < m; ++l) a[size_t(l * m + k)] = p.at(i, solved[size_t(l)]);
   }
   LuFactor lu;
-  if (m > 0 && !lu.factor(a, m, 1e-11)) return false;
+  if (m > 0 && !lu.factor(a, m, tolerances::lost_enumerated_pivot)) return false;
   if (m > 0) lu.solve(x.data());
   for (int k = 0; k < m; ++k) z[solved[size_t(k)]] = x[size_t(k)];
   return true;
@@ -63,7 +63,7 @@ Result<LcpSolution> enumeration(const LcpProblem& problem, const LcpOptions& opt
     choices.push_back(lateral[size_t(i)] ? std::vector<double>{0} : choices_of(p, i));
     assignments *= double(choices.back().size());
   }
-  if (assignments > most_assignments)
+  if (assignments > tolerances::most_assignments)
     return Error{ErrorCode::unsupported, "too many assignments to enumerate", "lcp",
                  "use another solver: this one is for at most 12 unknowns"};
   LcpSolution out;

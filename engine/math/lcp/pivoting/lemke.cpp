@@ -5,6 +5,7 @@
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/newton/cone_newton.hpp"
 #include "engine/math/lcp/pivoting/standard_form.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ class LemkeTableau {
   int leaving(int entering) {
     int best = -1;
     for (int r = 0; r < n_; ++r) {
-      if (row(r)[entering] <= 1e-11) continue;
+      if (row(r)[entering] <= tolerances::lemke_no_pivot) continue;
       if (best < 0 || before(r, best, entering)) best = r;
     }
     return best;
@@ -74,12 +75,13 @@ class LemkeTableau {
     const double fx = 1 / x[entering], fy = 1 / y[entering];
     const double d = x[2 * n_ + 1] * fx - y[2 * n_ + 1] * fy;
     const double unit = std::fabs(x[2 * n_ + 1] * fx) + std::fabs(y[2 * n_ + 1] * fy);
-    if (std::fabs(d) > 1e-13 * (unit + fx + fy)) return d < 0;
+    if (std::fabs(d) > tolerances::lemke_same_side * (unit + fx + fy)) return d < 0;
     if (basic(a) == covering()) return true;
     if (basic(b) == covering()) return false;
     for (int c = 0; c < n_; ++c) {
       const double u = x[c] * fx, v = y[c] * fy;
-      if (std::fabs(u - v) > 1e-12 * (1 + std::fabs(u) + std::fabs(v))) return u < v;
+      if (std::fabs(u - v) > tolerances::lemke_same_column * (1 + std::fabs(u) + std::fabs(v)))
+        return u < v;
     }
     return a < b;
   }
@@ -139,7 +141,7 @@ Result<LcpSolution> lemke(const LcpProblem& problem, const LcpOptions& options) 
   if (out.report.status == LcpStatus::ray) {
     out.ray = form.back(direction, true);
     if (problem.groups.empty() && check_symmetric(problem).ok() &&
-        ray_residual(problem, out.ray) < 1e-9)
+        ray_residual(problem, out.ray) < tolerances::ray_proof)
       out.report.status = LcpStatus::infeasible;
   }
   grade(problem, options.tolerance, out);

@@ -4,6 +4,7 @@
 #include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 #include "engine/math/lcp/pivoting/block_start.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +14,6 @@ namespace tumble::lcp {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-// Of rates, in scaled units, the driven unknown's being 1.
-constexpr double still = 1e-14;            ///< an unknown does not move
-constexpr double steady = 1e-13;           ///< a w does not change
-constexpr double steady_resting = 1e-11;   ///< the same where rows depend on each other
-constexpr double no_remainder = 1e-9;      ///< a Schur complement that may be 0
-constexpr double indefinite = -1e-6;       ///< one that no rounding makes of 0
-constexpr double rounded_change = 1e-4;    ///< A d, of d, that rounding of A may leave
-constexpr double rounded_w = 1e-10;        ///< w, of its terms, that rounding of rows may leave
-constexpr double least_remainder = 1e-15;  ///< with which an unknown is clamped
-constexpr int most_rounds = 5;
 
 /// The first t >= 0 at which |x + t dx| - slope (a + t da) becomes positive; endless if never.
 double surface_time(double slope, double a, double da, std::array<double, 2> x,
@@ -85,7 +76,7 @@ void PivotDriver::offer(Event event, int index, double room, double rate) {
 
 void PivotDriver::collect_surfaces(const PivotState::Group& g) {
   const int a = g.cone.axial, i = g.cone.lateral[0], j = g.cone.lateral[1];
-  if (dz_[a] < -still) offer(Event::apex, a, s_.z[a], -dz_[a]);
+  if (dz_[a] < -tolerances::still) offer(Event::apex, a, s_.z[a], -dz_[a]);
   if (g.prescribed()) return;
   if (g.round()) {
     if (s_.role[size_t(i)] == Role::tied) return;
@@ -98,7 +89,8 @@ void PivotDriver::collect_surfaces(const PivotState::Group& g) {
     if (s_.role[size_t(k)] == Role::tied) continue;
     for (const double side : {1.0, -1.0}) {
       const double rate = side * dz_[k] - g.cone.slope * dz_[a];
-      if (rate > still) offer(Event::surface, k, g.cone.slope * s_.z[a] - side * s_.z[k], rate);
+      if (rate > tolerances::still)
+        offer(Event::surface, k, g.cone.slope * s_.z[a] - side * s_.z[k], rate);
     }
   }
 }
@@ -112,12 +104,13 @@ void PivotDriver::collect_slacks(int l) {
       case Role::clamped:
         break;
       case Role::resting:
-        if (std::fabs(dw_[i]) > steady_resting) offer(Event::other_w, i, 0, std::fabs(dw_[i]));
+        if (std::fabs(dw_[i]) > tolerances::steady_resting)
+          offer(Event::other_w, i, 0, std::fabs(dw_[i]));
         break;
       case Role::at_bound: {
         if (s_.is_lateral(i) || s_.is_fixed(i)) break;
         const double rate = s_.place[k] == Place::upper ? dw_[i] : -dw_[i];
-        if (rate > steady) offer(Event::other_w, i, std::fabs(s_.w[i]), rate);
+        if (rate > tolerances::steady) offer(Event::other_w, i, std::fabs(s_.w[i]), rate);
         break;
       }
       case Role::tied: {
@@ -125,7 +118,7 @@ void PivotDriver::collect_slacks(int l) {
         const size_t axis = g.cone.lateral[0] == i ? 0 : 1;
         if (g.prescribed() || (g.round() && axis == 1)) break;
         const double rate = g.tie[axis] > 0 ? dw_[i] : -dw_[i];
-        if (rate > steady) offer(Event::inward, i, -s_.outward(i), rate);
+        if (rate > tolerances::steady) offer(Event::inward, i, -s_.outward(i), rate);
         break;
       }
     }
@@ -136,7 +129,7 @@ void PivotDriver::collect(int l, double sign, bool flat) {
   stops_.clear();
   if (!flat && sign * dw_[l] > 0) offer(Event::own_w, l, std::fabs(s_.w[l]), std::fabs(dw_[l]));
   const auto to_bound = [&](Event event, int i) {
-    if (s_.grouped(i) || std::fabs(dz_[i]) <= still) return;
+    if (s_.grouped(i) || std::fabs(dz_[i]) <= tolerances::still) return;
     const double room = dz_[i] > 0 ? s_.problem.upper[i] - s_.z[i] : s_.z[i] - s_.problem.lower[i];
     if (room < endless) offer(event, i, room, std::fabs(dz_[i]));
   };
@@ -204,7 +197,7 @@ bool PivotDriver::apply(const Stop& stop, int l) {
     case Event::other_w:
       s_.w[i] = 0;
       if (s_.is_axial(i)) s_.tie_against_w(*g);
-      if (!s_.enter(i, least_remainder)) s_.excused[size_t(i)] = 1;
+      if (!s_.enter(i, tolerances::least_remainder)) s_.excused[size_t(i)] = 1;
       return true;
     case Event::inward:
       s_.w[i] = 0;
@@ -235,14 +228,14 @@ bool PivotDriver::repeats(int l, double step) {
 /// Without groups A d = 0 is a proof. A d != 0 while d A d <= 0 is what no semi-definite matrix
 /// does, but one that rounding spoiled may, if A d is small.
 LcpStatus PivotDriver::finish_unblocked(int l, bool flat) {
-  if (flat && std::fabs(s_.w[l]) <= rounded_w * s_.magnitude) {
+  if (flat && std::fabs(s_.w[l]) <= tolerances::rounded_w * s_.magnitude) {
     s_.excused[size_t(l)] = 1;
     return LcpStatus::solved;
   }
   ray = s_.in_own_units(dz_);
   if (!s_.groups.empty()) return LcpStatus::ray;
   if (flat) return LcpStatus::infeasible;
-  return change() > rounded_change ? LcpStatus::not_semidefinite : LcpStatus::numeric;
+  return change() > tolerances::rounded_change ? LcpStatus::not_semidefinite : LcpStatus::numeric;
 }
 
 LcpStatus PivotDriver::drive(int l) {
@@ -251,8 +244,8 @@ LcpStatus PivotDriver::drive(int l) {
     charge_work(size_t(s_.n), 2 * size_t(s_.n) + 40);
     if (++s_.pivots > limit_ || stop_requested()) return LcpStatus::max_iterations;
     if (!s_.direction(l, sign, dz_, dw_)) return LcpStatus::numeric;
-    const bool flat = s_.remainder() <= no_remainder && change() <= steady;
-    if (!flat && s_.groups.empty() && s_.remainder() < indefinite)
+    const bool flat = s_.remainder() <= tolerances::no_remainder && change() <= tolerances::steady;
+    if (!flat && s_.groups.empty() && s_.remainder() < tolerances::indefinite)
       return LcpStatus::not_semidefinite;
     collect(l, sign, flat);
     const Stop stop = pick();
@@ -329,7 +322,7 @@ bool PivotDriver::holds() {
   bool out = true;
   for (int i = 0; i < s_.n; ++i) {
     if (std::exchange(s_.excused[size_t(i)], char(0))) {
-      if (s_.wrong(i) > rounded_w * s_.magnitude)
+      if (s_.wrong(i) > tolerances::rounded_w * s_.magnitude)
         out = false;
       else
         s_.excused[size_t(i)] = 1;
@@ -346,7 +339,8 @@ LcpStatus PivotDriver::run() {
       const LcpStatus status = correct(l);
       if (status != LcpStatus::solved) return status;
     }
-    if (!s_.groups.empty() || round == most_rounds || holds()) return LcpStatus::solved;
+    if (!s_.groups.empty() || round == tolerances::most_driver_rounds || holds())
+      return LcpStatus::solved;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/pivoting/pivot_state.hpp"
 
 #include "engine/math/kernels.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,7 @@ bool PivotState::factor_tied() {
   std::vector<double> a(m * m);
   for (size_t j = 0; j < m; ++j)
     for (size_t i = 0; i < m; ++i) a[j * m + i] = tied_entry(clamped_[i], clamped_[j]);
-  return m == 0 || lu_.factor(a, int(m), 1e-12);
+  return m == 0 || lu_.factor(a, int(m), tolerances::lost_clamped_pivot);
 }
 
 bool PivotState::direction(int l, double sign, VecX& dz, VecX& dw) {
@@ -178,7 +179,7 @@ void PivotState::factor_anew(const std::vector<int>& list) {
   factor_.reset(n);
   for (const int i : list) {
     const double remainder = reduce(i);
-    factor_.append(i, y_.data(), std::max(remainder, 1e-300));
+    factor_.append(i, y_.data(), std::max(remainder, tolerances::never_zero));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "engine/math/lcp/pivoting/ldl.hpp"
 #include "engine/math/lcp/report.hpp"
 #include "engine/math/lcp/scaling.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lu.hpp"
 
 #include <cstdint>
@@ -49,7 +50,7 @@ class PivotState {
   int pivots = 0;
   double magnitude = 0;  ///< of the terms that make up w: what its rounding errors are relative to
 
-  double tolerance() const { return 1e-13 * magnitude; }
+  double tolerance() const { return tolerances::w_rounding * magnitude; }
   bool is_clamped(int i) const { return role[size_t(i)] == Role::clamped; }
   bool is_fixed(int i) const { return problem.lower[i] == problem.upper[i]; }
   bool is_axial(int i) const { return grouped(i) && group(i).cone.axial == i; }

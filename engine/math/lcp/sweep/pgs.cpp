@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/math/lcp/system/dense_system.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <cmath>
@@ -25,7 +26,7 @@ Result<LcpSolution> pgs(const LcpProblem& problem, const LcpOptions& options) {
       out.report.status = LcpStatus::numeric;
       break;
     }
-    const bool still = moved <= 1e-16 * z.cwiseAbs().maxCoeff();
+    const bool still = moved <= tolerances::sweep_still * z.cwiseAbs().maxCoeff();
     if (k % 10 != 0 && k != limit && !still) continue;
     out.z = system.in_own_units(z);
     if (validate(problem, out.z).worst() <= options.tolerance) {

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/system/cone_system.hpp"
 
 #include "engine/math/lcp/cone.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace tumble::lcp {
 namespace {
-
-constexpr double no_stiffness = 1e-12;  ///< of a diagonal of about 1: nothing to divide by
 
 /// A group of a sweep: the axial unknown by itself, then the lateral ones by projected gradient
 /// steps of the length that their 2 x 2 block allows; w follows.
@@ -23,10 +22,10 @@ void sweep_group(const ConeGroup& g, const Square& A, Triple& x, Triple& w) {
   const bool slides = g.mode == ConeMode::sliding;
   double slope = A[0];
   if (slides) slope -= g.slope * (A[1] * g.direction[0] + A[2] * g.direction[1]);
-  if (slope > no_stiffness) change(0, std::max(0.0, x[0] - w[0] / slope));
+  if (slope > tolerances::no_stiffness) change(0, std::max(0.0, x[0] - w[0] / slope));
   const double mean = 0.5 * (A[4] + A[8]), half = 0.5 * (A[4] - A[8]);
   const double greatest = mean + std::sqrt(half * half + A[5] * A[5]);
-  const double f = greatest > no_stiffness ? 1 / greatest : 0;
+  const double f = greatest > tolerances::no_stiffness ? 1 / greatest : 0;
   for (int k = 0; k < (slides ? 1 : 3); ++k) {
     const auto to = nearest_lateral(g, x[0], {x[1] - f * w[1], x[2] - f * w[2]});
     change(1, to[0]);

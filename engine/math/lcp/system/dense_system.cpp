@@ -2,6 +2,7 @@
 
 #include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
+#include "engine/math/lcp/tolerances.hpp"
 #include "engine/math/lcp/validate.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace tumble::lcp {
 namespace {
-
-constexpr double lost_pivot = 1e-22;  ///< of the greatest entry: the step would be noise
 
 /// Whether a row of a unit says dz_i = -f_i and nothing else.
 bool says_itself(const UnitValue& value, size_t r) {
@@ -97,14 +96,14 @@ bool DenseSystem::step(std::span<const UnitValue> values, const VecX& f, double 
   for (size_t k = 0; k < parts_.size(); ++k)
     for (size_t r = 0; r < size_t(parts_[k].count); ++r)
       if (place_[size_t(parts_[k].row[r])] >= 0) add_row(parts_[k], values[k], r, weight, dz);
-  if (!lu_.factor(matrix_, int(m), lost_pivot)) return false;
+  if (!lu_.factor(matrix_, int(m), tolerances::lost_pivot)) return false;
   lu_.solve(right_.data());
   for (size_t c = 0; c < m; ++c) dz[active_[c]] = right_[c];
   return dz.allFinite();
 }
 
 double DenseSystem::least_term(const VecX&) const {
-  return std::max(1e-150, scaled_.b.cwiseAbs().maxCoeff());
+  return std::max(tolerances::never_zero_term, scaled_.b.cwiseAbs().maxCoeff());
 }
 
 double DenseSystem::residual(const VecX& z) {
