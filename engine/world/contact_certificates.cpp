@@ -4,6 +4,7 @@
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
 #include "engine/world/tick_forces.hpp"
+#include "engine/world/tolerances.hpp"
 #include "engine/world/world.hpp"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ ContactCertificate realtime_certificate(const Contact& contact, int i,
   if (!(pressing > 0)) return c;
   const double across = (c.force - pressing * c.normal).norm();
   if (c.friction > 0) c.place_in_cone = across / (c.friction * pressing);
-  c.mode = c.place_in_cone >= 1 - 1e-6 || !(c.friction > 0) ? ContactMode::sliding
-                                                            : ContactMode::sticking;
+  c.mode = c.place_in_cone >= 1 - tolerances::on_cone || !(c.friction > 0) ? ContactMode::sliding
+                                                                           : ContactMode::sticking;
   return c;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/world/dragged_bodies.hpp"
 
 #include "engine/world/tick_common.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,11 +10,6 @@
 
 namespace tumble {
 namespace {
-
-/// No impact goes so deep, as a part of the least thickness of the body [-].
-constexpr double deep = 0.25;
-/// What contacts of bodies at rest may overlap by, of any size [m].
-constexpr double ordinary = 1e-3;
 
 double least_thickness(const RigidBody& b) {
   double least = std::numeric_limits<double>::infinity();
@@ -37,7 +33,8 @@ Sunk deepest(const WorldState& s) {
     const uint32_t other = a_moves ? c.key.body_b : c.key.body_a;
     if (bodies[other].type != BodyType::fixed) return;
     for (const ContactPoint& p : c.used())
-      if (-p.gap > worst.depth && -p.gap > deep * least_thickness(bodies[body]))
+      if (-p.gap > worst.depth &&
+          -p.gap > tolerances::dragged_depth * least_thickness(bodies[body]))
         worst = {body, other, -p.gap};
   });
   return worst;
@@ -64,7 +61,7 @@ uint32_t mover_of(const WorldState& s, uint32_t island) {
 }  // namespace
 
 void warn_of_dragged_bodies(WorldState& s) {
-  if (s.told.dragged || !(s.stats.max_penetration > ordinary)) return;
+  if (s.told.dragged || !(s.stats.max_penetration > tolerances::ordinary_overlap)) return;
   const Sunk sunk = deepest(s);
   if (sunk.body == no_body || sunk.body >= s.islands.island_of.size()) return;
   const uint32_t island = s.islands.island_of[sunk.body];

@@ -1,5 +1,6 @@
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <cmath>
 
@@ -7,14 +8,6 @@
 
 namespace tumble {
 namespace {
-
-/// Energy may exceed by this factor what came into the world before the run counts as broken [-]:
-/// no error of a method that works is so large, and what grows without bound passes it soon.
-constexpr double growth = 1000;
-/// What is not told from nothing: all that moves at this speed, faster than anything falls in a
-/// room [m/s]. A world that begins at rest in the plane of the origin has no energy to compare
-/// with.
-constexpr double floor_speed = 100;
 
 /// What came in from outside, as the books have it: edits, the user, emitters (and what left with
 /// what was removed), moving bodies, motors, and forces that are no springs. All else that they
@@ -80,8 +73,9 @@ Status check_energy(const WorldState& s) {
   // is slack again after the next. What grows without bound shows in the motion.
   const double moving = energy - stats.energies.springs;
   const double given = energy_given(s), excess = moving - given;
-  if (!(excess > growth * std::fabs(given))) return {};
-  if (excess < 0.5 * moving_mass(s) * floor_speed * floor_speed) return {};
+  if (!(excess > tolerances::energy_growth * std::fabs(given))) return {};
+  if (excess < 0.5 * moving_mass(s) * tolerances::no_energy_speed * tolerances::no_energy_speed)
+    return {};
   return breakdown(s, fmt::format("the world has {:.3g} J, a thousand times what all that moves it "
                                   "has given ({:.3g} J): the motion is unstable",
                                   moving, given));

@@ -4,6 +4,7 @@
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/math/rotation.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -12,8 +13,6 @@ namespace tumble {
 namespace {
 
 constexpr int most_bounces = 3;
-constexpr double meeting_distance = 1e-6;  ///< how near counts as met [m]
-constexpr double approaching = 1e-9;       ///< faster is a collision [m/s]
 
 bool exchanges(const WorldState& s, size_t system) {
   const ParticleSystem& p = s.particles[system];
@@ -81,8 +80,8 @@ class FastExchange {
       shapes.push_back({s_.bodies.bodies[part.body].shapes[part.shape].shape.get(),
                         motion_of(part, whole_tick)});
     std::vector<ParticleShapeMeeting> meetings;
-    if (Status found =
-            finder_.meeting_shapes({{from_, radius_}, v, h_}, shapes, meeting_distance, meetings);
+    if (Status found = finder_.meeting_shapes({{from_, radius_}, v, h_}, shapes,
+                                              tolerances::meeting_distance, meetings);
         !found)
       return found;
     std::stable_sort(meetings.begin(), meetings.end(), [](const auto& a, const auto& b) {
@@ -138,7 +137,7 @@ class FastExchange {
     belt -= n.dot(belt) * n;
     const Vec3 slip = velocity(i) - b.velocity_at(x) - belt;
     const double speed = -n.dot(slip);
-    if (!(speed > approaching)) return false;
+    if (!(speed > tolerances::approaching_speed)) return false;
     const bool gives_way = b.dynamic() && (b.awake() || mass * slip.norm() * b.inverse_mass >
                                                             s_.settings.realtime.sleep_speed);
     if (gives_way && b.asleep) wake(b);

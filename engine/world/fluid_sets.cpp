@@ -2,16 +2,13 @@
 
 #include "engine/math/det/det.hpp"
 #include "engine/world/fluids.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 namespace tumble {
 namespace {
-
-/// Largest ratio of the spacings of fluids that see each other [-]: the kernel, which goes by the
-/// mean volume of all, then reaches no fewer than one and a half spacings of any.
-constexpr double most_spacings = 1.25;
 
 double spacing_of(const ParticleSystem& p) {
   const double mass = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
@@ -21,7 +18,7 @@ double spacing_of(const ParticleSystem& p) {
 bool together(const ParticleSystem& a, const ParticleSystem& b) {
   if (!can_be_solved_together(*a.fluid, *b.fluid)) return false;
   const double one = spacing_of(a), other = spacing_of(b);
-  return std::max(one, other) <= most_spacings * std::min(one, other);
+  return std::max(one, other) <= tolerances::most_spacing_ratio * std::min(one, other);
 }
 
 template <class T>

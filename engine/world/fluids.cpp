@@ -4,6 +4,7 @@
 #include "engine/math/det/det.hpp"
 #include "engine/world/fluid_sets.hpp"
 #include "engine/world/tick_watch.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@
 
 namespace tumble {
 namespace {
-
-/// Pushes that would give a sleeping body this share of the speed that it falls to in a tick wake
-/// it [-].
-constexpr double waking_push = 0.1;
 
 class FluidStage {
  public:
@@ -171,7 +168,7 @@ class FluidStage {
       }
     }
     work_.on_bodies.resize(kept);
-    const double weight = waking_push * s_.settings.gravity.norm();
+    const double weight = tolerances::waking_push * s_.settings.gravity.norm();
     for (const FluidWorkspace::OnBody& on : work_.on_bodies) {
       RigidBody& b = s_.bodies.bodies[on.slot];
       if (!b.dynamic()) continue;

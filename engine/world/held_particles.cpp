@@ -1,15 +1,11 @@
 #include "engine/world/held_particles.hpp"
 
+#include "engine/world/tolerances.hpp"
+
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-/// A dynamic body of so many times the mass of a particle holds it [-]: what the particle does to
-/// it in a tick may be left to the next.
-constexpr double heavy = 20;
-/// A particle rubs along where its friction is within this share of the largest [-].
-constexpr double near_slipping = 0.999;
 
 struct Side {
   bool particle = false;
@@ -35,7 +31,7 @@ void add_hold(const WorldState& s, const Contact& c, std::vector<HeldParticle>& 
   if (slot >= s.bodies.bodies.size()) return;
   const RigidBody& body = s.bodies.bodies[slot];
   const ParticleSystem& p = s.particles[side.system];
-  if (body.dynamic() && body.mass < heavy * p.mass[side.index]) return;
+  if (body.dynamic() && body.mass < tolerances::holding_mass_ratio * p.mass[side.index]) return;
   double pressed = 0;
   Vec3 rubbed = Vec3::Zero();
   for (const ContactPoint& point : c.used()) {
@@ -45,7 +41,7 @@ void add_hold(const WorldState& s, const Contact& c, std::vector<HeldParticle>& 
   if (!(pressed > 0)) return;
   HeldParticle held{side.system, side.index, {}};
   held.hold.presses = true;
-  held.hold.sticks = rubbed.norm() < near_slipping * c.friction * pressed;
+  held.hold.sticks = rubbed.norm() < tolerances::near_slipping * c.friction * pressed;
   held.hold.normal = b.particle ? c.normal : Vec3(-c.normal);
   held.hold.friction = c.friction;
   const Vec3 surface = p.x[side.index] - p.radius[side.index] * held.hold.normal;

@@ -1,13 +1,12 @@
 #include "engine/world/particle_detection.hpp"
 
+#include "engine/world/tolerances.hpp"
+
 #include <algorithm>
 #include <tuple>
 
 namespace tumble {
 namespace {
-
-/// How near counts as touching when the first time is sought [m].
-constexpr double meeting_tolerance = 1e-6;
 
 /// Goes through two sorted lists at once: calls f(touch or null, meet or null) for every key of
 /// either.
@@ -80,8 +79,8 @@ Status ParticleDetection::find_bodies(double h, std::vector<ParticleContactFrame
   std::vector<ParticleShapeContact> touches;
   std::vector<ParticleShapeMeeting> meets;
   if (Status s = finder_.touching_shapes({to_, radius_}, still_, 0, touches); !s) return s;
-  if (Status s =
-          finder_.meeting_shapes({{from_, radius_}, v_, h}, moving_, meeting_tolerance, meets);
+  if (Status s = finder_.meeting_shapes({{from_, radius_}, v_, h}, moving_,
+                                        tolerances::meeting_distance, meets);
       !s)
     return s;
   const auto key = [](const auto& c) { return std::tuple(c.particle, c.shape); };

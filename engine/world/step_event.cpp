@@ -14,14 +14,12 @@
 #include "engine/world/tick_forces.hpp"
 #include "engine/world/tick_watch.hpp"
 #include "engine/world/time_stepping.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 
 namespace tumble {
 namespace {
-
-/// Promised for contacts, beyond the depth that was accepted when they began [m].
-constexpr double most_depth = 1e-5;
 
 /// Nothing sleeps under this stepper.
 void wake_sleepers(WorldState& s) {
@@ -170,7 +168,7 @@ void count_work(WorldState& s) {
             "the contact solver '" + s.settings.event.contact_solver +
                 "' does not answer for these contacts; another one did (this is said once; "
                 "certificates of contacts name it)");
-  warn_once(s, done.deepest > most_depth, s.told.deep,
+  warn_once(s, done.deepest > tolerances::most_event_depth, s.told.deep,
             "contacts are deeper than 1e-5 m beyond the overlap there was before; use a smaller "
             "tick (this is said once)");
   warn_once(s, done.jams, s.told.jam,

@@ -1,6 +1,6 @@
-// Numbers of dynamics and of the solvers of complementarity stand with their reasons in the
-// tolerances.hpp of their room. Reference: the text of every other file there; what is written with
-// an exponent, or as a named floating-point constant, is a tolerance.
+// Numbers of dynamics, of the world and of the solvers of complementarity stand with their reasons
+// in the tolerances.hpp of their room. Reference: the text of every other file there; what is
+// written with an exponent, or as a named floating-point constant, is a tolerance.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -10,12 +10,12 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("numbers of dynamics and lcp have their reasons in tolerances.hpp") {
+TEST_CASE("numbers of dynamics, lcp and world have their reasons in tolerances.hpp") {
   const std::regex comment("//.*"), text("\"[^\"]*\"");
   const std::regex with_exponent("\\b[0-9]+\\.?[0-9]*e-?[0-9]+");
   const std::regex named("constexpr (double|float) \\w+ = -?[0-9.]+f?;");
   // A constant, a unit, the default of a value that scenes give.
-  const std::regex unit("constexpr double (pi|second|default_\\w+) = .*");
+  const std::regex unit("constexpr double (pi|second|percent|default_\\w+) = .*");
   // A member that callers or scenes set, with what it means beside its default.
   const std::regex option("\\s+double \\w+ = [^;]+;\\s+///<.*");
   const std::regex settings(".*_settings\\.[ch]pp");
@@ -23,7 +23,7 @@ TEST_CASE("numbers of dynamics and lcp have their reasons in tolerances.hpp") {
   for (const char* room :
        {"dynamics/bodies", "dynamics/particles", "dynamics/forces", "dynamics/rows",
         "dynamics/joints", "dynamics/contact", "dynamics/islands", "dynamics/realtime",
-        "dynamics/grains", "dynamics/event", "math/lcp"}) {
+        "dynamics/grains", "dynamics/event", "math/lcp", "world"}) {
     const fs::path folder = fs::path(TUMBLE_SOURCE_DIR) / "engine" / room;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string name = entry.path().filename();

@@ -1,13 +1,12 @@
 #include "engine/world/ledger/ledger.hpp"
 
+#include "engine/world/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-/// Of an energy that many bodies add up to.
-constexpr double energy_digits = 1e-14;
 
 std::array<double, 8> numbers_of(const LedgerEntry& e) {
   return {e.work,
@@ -133,7 +132,7 @@ void Ledger::close(const LedgerState& now) {
 double Ledger::drift() const {
   const double all = throughput();
   const double error = std::fabs(line(LedgerLine::integrator).total().balance);
-  const double rounding = energy_digits * std::fabs(now_.energy);
+  const double rounding = tolerances::energy_digits * std::fabs(now_.energy);
   return all > 0 && error > rounding ? (error - rounding) / all : 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/world/microscope/chart.hpp"
+#include "engine/world/microscope/tolerances.hpp"
 #include "engine/world/microscope/world_copy.hpp"
 #include "engine/world/tick_watch.hpp"
 #include "engine/world/world.hpp"
@@ -15,10 +16,6 @@ namespace tumble {
 namespace {
 
 constexpr double percent = 100;
-/// Of the particles, those whose error is beyond the colours: a few would darken all others.
-constexpr double beyond_colours = 0.01;
-/// Of the error that is enough, what the plot shows at least: an error of 0 has no logarithm.
-constexpr double least_of_enough = 0.01;
 
 /// The first particles that are asked for, of which `good` holds.
 template <class Good>
@@ -33,7 +30,8 @@ const ParticleFrame* first_of(const Frame& frame, const MicroscopeSetup& setup, 
 double colour_top(const FluidTrace::Solve& solve) {
   std::vector<float> wrong = solve.iterations.front().wrong;
   if (wrong.empty()) return 1;
-  const auto at = wrong.begin() + ptrdiff_t((1 - beyond_colours) * double(wrong.size() - 1));
+  const auto at =
+      wrong.begin() + ptrdiff_t((1 - tolerances::beyond_colours) * double(wrong.size() - 1));
   std::nth_element(wrong.begin(), at, wrong.end());
   return std::max(percent * double(*at), percent* solve.enough);
 }
@@ -65,7 +63,8 @@ class DensityRecorder {
 void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
   out.title = "mean error, log scale";
   const double enough = std::min(trace_.pressure.enough, trace_.shift.enough);
-  const double least = std::max(1e-12, least_of_enough * enough);
+  const double least =
+      std::max(tolerances::least_plotted_error, tolerances::least_of_enough * enough);
   const auto height = [least](double error) { return std::log10(std::max(error, least)); };
   double top = -12, low = 0;
   size_t longest = 5;

@@ -2,6 +2,7 @@
 
 #include "engine/collision/gjk/epa.hpp"
 #include "engine/world/microscope/chart.hpp"
+#include "engine/world/microscope/tolerances.hpp"
 
 #include <algorithm>
 
@@ -74,7 +75,7 @@ void add_stage(const DifferenceSpace& space, const EpaTrace& trace, size_t i,
 double record_epa(const DifferenceSpace& space, const Simplex& start,
                   std::vector<MicroscopeStep>& steps) {
   EpaTrace trace;
-  const EpaResult deep = epa(space.a(), space.b(), start, 1e-9, &trace);
+  const EpaResult deep = epa(space.a(), space.b(), start, tolerances::epa_accuracy, &trace);
   for (size_t i = 0; i < trace.size(); ++i) add_stage(space, trace, i, steps);
   MicroscopeStep& step = steps.emplace_back();
   step.title = "The depth is known";

@@ -8,6 +8,7 @@
 #include "engine/world/microscope/event_steps.hpp"
 #include "engine/world/microscope/gjk_steps.hpp"
 #include "engine/world/microscope/pivot_steps.hpp"
+#include "engine/world/microscope/tolerances.hpp"
 #include "engine/world/microscope/v_clip_steps.hpp"
 #include "engine/world/world.hpp"
 
@@ -95,8 +96,8 @@ const MicroscopeEntry* find_microscope(std::string_view name) {
 }
 
 int MicroscopeSetup::step_at(double time) const {
-  const double due = std::floor(time * steps_per_second + 1e-9);
-  return step + int(std::clamp(due, 0.0, 1e6));
+  const double due = std::floor(time * steps_per_second + tolerances::due_step);
+  return step + int(std::clamp(due, 0.0, tolerances::most_due_steps));
 }
 
 bool MicroscopeSlide::operator==(const MicroscopeSlide& other) const {

@@ -4,6 +4,7 @@
 #include "engine/math/lcp/pivoting/dantzig.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "engine/world/microscope/pivot_words.hpp"
+#include "engine/world/microscope/tolerances.hpp"
 #include "engine/world/microscope/world_copy.hpp"
 #include "engine/world/world.hpp"
 
@@ -22,8 +23,6 @@ using lcp::PivotStep;
 constexpr size_t most_labels = 24;
 /// More are not watched: the world waits meanwhile.
 constexpr int most_pivots = 3000;
-/// Length of the longest arrow of a force, of the largest body [-].
-constexpr double arrow_share = 0.9;
 
 bool turns_or_slides(const lcp::LcpProblem& problem, Eigen::Index i) {
   return std::any_of(problem.groups.begin(), problem.groups.end(), [i](const lcp::ConeGroup& g) {
@@ -112,7 +111,7 @@ void PivotRecorder::find_scales() {
 }
 
 void PivotRecorder::draw(const PivotStep& at, Sketch& out) const {
-  const double unit = force_most_ > 0 ? arrow_share * out_.size / force_most_ : 0;
+  const double unit = force_most_ > 0 ? tolerances::arrow_share * out_.size / force_most_ : 0;
   for (size_t i = 0; i < names_.unknowns.size(); ++i) {
     const PivotNames::Unknown& unknown = names_.unknowns[i];
     if (unknown.point < 0 || unknown.lateral) continue;

@@ -1,5 +1,7 @@
 #include "engine/world/microscope/pivot_words.hpp"
 
+#include "engine/world/microscope/tolerances.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,7 +70,7 @@ std::string pivot_caption(const lcp::PivotStep& step, const PivotNames& names, d
       "The {} is driven by {:.4g} N; clamped ones (green) follow so that nothing accelerates "
       "there. ",
       names[step.driven], step.step);
-  const bool none = std::fabs(step.step) <= 1e-9 * largest;
+  const bool none = std::fabs(step.step) <= tolerances::no_pivot_step * largest;
   const std::string way =
       none ? fmt::format("The {} should move, but cannot by any length: ", names[step.driven])
            : moved;

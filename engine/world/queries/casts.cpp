@@ -4,6 +4,7 @@
 #include "engine/world/queries/checks.hpp"
 #include "engine/world/queries/filter_test.hpp"
 #include "engine/world/queries/query_scene.hpp"
+#include "engine/world/queries/tolerances.hpp"
 
 #include <algorithm>
 
@@ -81,8 +82,8 @@ void QueryScene::casts(const Shape& shape, const CastQuery& q, const QueryFilter
       turns ? Aabb{q.start.x, q.start.x}.inflated(shape.bounding_radius()) : shape.bounds(q.start);
   const bool endless = !bounds.min.allFinite() || !bounds.max.allFinite();
   const Ray way{endless ? Vec3(Vec3::Zero()) : bounds.centre(), q.translation};
-  const Vec3 half =
-      endless ? Vec3(Vec3::Constant(1e300)) : Vec3(0.5 * bounds.extent().array() + q.tolerance);
+  const Vec3 half = endless ? Vec3(Vec3::Constant(tolerances::endless_half_size))
+                            : Vec3(0.5 * bounds.extent().array() + q.tolerance);
   double limit = 1;
   const auto meet = [&](const QueryTarget& target, const Shape& other, const Pose& pose) {
     auto hit = cast_at(shape, q, limit, other, pose);

@@ -3,6 +3,7 @@
 #include "engine/world/queries/checks.hpp"
 #include "engine/world/queries/filter_test.hpp"
 #include "engine/world/queries/query_scene.hpp"
+#include "engine/world/queries/tolerances.hpp"
 
 #include <algorithm>
 
@@ -15,7 +16,8 @@ void QueryScene::overlapping(const Shape& shape, const Pose& pose, const QueryFi
   const FilterTest test(filter);
   const Aabb exact = shape.bounds(pose);
   const double size = exact.min.cwiseAbs().cwiseMax(exact.max.cwiseAbs()).maxCoeff();
-  const Aabb bounds = std::isfinite(size) ? exact.inflated(1e-13 * size) : exact;
+  const Aabb bounds =
+      std::isfinite(size) ? exact.inflated(tolerances::query_rounding * size) : exact;
   bool more = true;
   tree_.overlapping(bounds, [&](uint32_t i) {
     const Placed& p = placed_[i];
@@ -62,7 +64,7 @@ Result<std::vector<QueryTarget>> QueryScene::holding(const Vec3& x,
   if (Status s = require_finite("point", x); !s) return s.error();
   const FilterTest test(filter);
   std::vector<QueryTarget> found;
-  const Aabb here = Aabb{x, x}.inflated(1e-13 * x.cwiseAbs().maxCoeff());
+  const Aabb here = Aabb{x, x}.inflated(tolerances::query_rounding * x.cwiseAbs().maxCoeff());
   tree_.overlapping(here, [&](uint32_t i) {
     const Placed& p = placed_[i];
     if (test.takes(p.target, p.type) && holds_point(*p.shape, p.pose, x)) found.push_back(p.target);
