@@ -36,8 +36,9 @@ ContactCertificate realtime_certificate(const Contact& contact, int i,
   if (!(pressing > 0)) return c;
   const double across = (c.force - pressing * c.normal).norm();
   if (c.friction > 0) c.place_in_cone = across / (c.friction * pressing);
-  c.mode = c.place_in_cone >= 1 - tolerances::on_cone || !(c.friction > 0) ? ContactMode::sliding
-                                                                           : ContactMode::sticking;
+  c.mode = c.place_in_cone >= 1 - tolerances::certified_sliding || !(c.friction > 0)
+               ? ContactMode::sliding
+               : ContactMode::sticking;
   return c;
 }
 

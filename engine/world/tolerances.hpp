@@ -15,7 +15,7 @@ inline constexpr double energy_digits = 1e-14;
 
 /// A contact slides, for a certificate, whose force is within this of the surface of its cone, as a
 /// share of the cone's radius [-].
-inline constexpr double on_cone = 1e-6;
+inline constexpr double certified_sliding = 1e-6;
 /// Depth that the event stepper promises contacts not to pass, beyond the depth that was accepted
 /// when they began [m].
 inline constexpr double most_event_depth = 1e-5;
