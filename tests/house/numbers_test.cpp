@@ -3,8 +3,10 @@
 // written with an exponent, or as a named floating-point constant, is a tolerance.
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -43,4 +45,30 @@ TEST_CASE("numbers of dynamics, lcp and world have their reasons in tolerances.h
     }
   }
   CHECK(files > 100);
+}
+
+// Inline constants of one name in one namespace are one constant to the linker, whatever their
+// values.
+TEST_CASE("a name in tolerances.hpp has one value in its namespace") {
+  const std::regex comment("//.*"), space("^namespace ([\\w:]+) \\{");
+  const std::regex constant("(\\w+)(?:\\[\\])? = ([^,;]+)[,;]");
+  std::map<std::string, std::pair<std::string, std::string>> seen;  // name: value, file
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(TUMBLE_SOURCE_DIR) / "engine")) {
+    if (entry.path().filename() != "tolerances.hpp") continue;
+    std::ifstream in(entry.path());
+    std::string line, scope;
+    while (std::getline(in, line)) {
+      const std::string code = std::regex_replace(line, comment, "");
+      std::smatch m;
+      if (std::regex_search(code, m, space)) scope = m[1];
+      for (std::sregex_iterator it(code.begin(), code.end(), constant), end; it != end; ++it) {
+        const std::string name = scope + "::" + (*it)[1].str(), value = (*it)[2];
+        const auto [first, is_new] = seen.try_emplace(name, value, entry.path().string());
+        CHECK_MESSAGE(first->second.first == value, name, " is ", first->second.first, " in ",
+                      first->second.second, " and ", value, " in ", entry.path().string());
+      }
+    }
+  }
+  CHECK(seen.size() > 200);
 }

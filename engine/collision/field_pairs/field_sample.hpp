@@ -12,7 +12,7 @@ struct FieldPoint {
   double error = 0;              ///< of the distance [m]
 
   bool has_direction() const {
-    return gradient.squaredNorm() > tolerances::no_direction * tolerances::no_direction;
+    return gradient.squaredNorm() > tolerances::no_gradient * tolerances::no_gradient;
   }
   Vec3 normal() const { return gradient.normalized(); }
   /// The exact distance is no less anywhere within `way` of the point [m].

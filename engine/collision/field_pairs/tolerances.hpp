@@ -64,7 +64,7 @@ inline constexpr double clearly_lower = 1e-3;
 
 /// A gradient shorter than this has no direction: on a ridge of the distance, as far from one side
 /// as from the other.
-inline constexpr double no_direction = 0.1;
+inline constexpr double no_gradient = 0.1;
 
 /// Of the contacts of one pair this many, the deepest, are made into manifolds: all of the corners
 /// that a fine mesh may have within the margin would not press harder.

@@ -232,10 +232,10 @@ class ApproximateDecomposer {
     return out;
   }
   static bool same_plane(const Plane& a, const Plane& b, const Aabb& box) {
-    return a.normal.cross(b.normal).norm() < tolerances::same_direction &&
+    return a.normal.cross(b.normal).norm() < tolerances::same_cut_direction &&
            std::fabs(a.distance(box.centre()) -
                      (a.normal.dot(b.normal) > 0 ? 1 : -1) * b.distance(box.centre())) <
-               tolerances::same_direction * box.extent().norm();
+               tolerances::same_cut_direction * box.extent().norm();
   }
 
   /// The planes with those first that leave the least volume in the hulls of both sides, or that

@@ -33,6 +33,6 @@ inline constexpr double lost_volume = 1e-6;
 
 /// Directions of approximate cuts are those of faces unless they are this near to one that is tried
 /// already [rad].
-inline constexpr double same_direction = 1e-3;
+inline constexpr double same_cut_direction = 1e-3;
 
 }  // namespace tumble::tolerances
