@@ -19,9 +19,9 @@ struct RandomScene {
 /// Bodies have every kind of shape (all_shapes()), meshes of assets/meshes and several shapes;
 /// there may be joints of every kind, springs, fields, and particles with and without springs
 /// between them; settings of both steppers and of every stage are drawn. Every body begins in a
-/// cell of its own, so nothing overlaps. Springs that an explicit integrator cannot follow, of omega h
-/// above 0.2, are drawn for `realtime` and for implicit integrators only: the others' breakdown is
-/// no fault of the engine.
+/// cell of its own, so nothing overlaps. Springs that an explicit integrator cannot follow, of
+/// omega h above 0.2, are drawn for `realtime` and for implicit integrators only: the others'
+/// breakdown is no fault of the engine.
 RandomScene random_scene(uint64_t seed, const std::string& stepper);
 
 }  // namespace tumble
