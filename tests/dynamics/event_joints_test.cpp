@@ -1,6 +1,7 @@
 // Joints under the event stepper. References: the energy of the double pendulum of the published
 // comparison; reactions of the conical and of the physical pendulum; the centre of percussion, the
-// double pendulum's impulse by Lagrange's equations, and the collision of one merged body.
+// double pendulum's impulse by Lagrange's equations, and the collision of one merged body. Of
+// joints that do not fit: what they are off by less EventSettings::recovery_speed times the time.
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/event_world.hpp"
@@ -114,6 +115,65 @@ TEST_CASE("what is kept of joints' equations from tick to tick changes no bit") 
       CHECK(kept.bodies[i].pose.x == anew.bodies[i].pose.x);
       CHECK(kept.bodies[i].omega == anew.bodies[i].omega);
     }
+  }
+}
+
+TEST_CASE("joints that do not fit close at the recovery speed, and nothing is faster for it") {
+  const Vec3 v(0.5, 0.2, -0.1);
+  for (const JointKind kind : {JointKind::distance, JointKind::spherical, JointKind::rigid}) {
+    EventWorld w;
+    w.gravity.setZero();
+    for (int i = 0; i < 2; ++i) {
+      BodyDef d = body(box(0.3, 0.2, 0.1), {2.0 * i, 0.1 * i, 0});
+      d.mass = 1 + 2 * i;
+      d.velocity = v;
+      w.add(d);
+    }
+    Joint& joint = w.join(kind, 0, 1, {{1, 0, 0}, Quat::Identity()});
+    if (kind == JointKind::distance) joint.length = 0.1;
+    joint.frame_b.x += Vec3(0.06, -0.03, 0.02);
+    JointRows off;
+    joint_rows(kind, joint_sides(joint, w.bodies), off);
+    double whole = 0;
+    for (const JointRow& r : off.all()) whole += r.error * r.error;
+    whole = std::sqrt(whole);
+    REQUIRE(whole > 0.02);
+    const Vec3 centre = 0.25 * w.bodies[0].pose.x + 0.75 * w.bodies[1].pose.x;
+    const double energy = w.energy();
+    for (int n = 1; n * w.h < 2; ++n) {
+      w.step();
+      CAPTURE(int(kind));
+      CAPTURE(n);
+      const double left = std::max(0.0, 1 - n * w.h * w.settings.recovery_speed / whole);
+      JointRows now;
+      joint_rows(kind, joint_sides(joint, w.bodies), now);
+      for (size_t i = 0; i < now.size(); ++i)
+        CHECK(std::fabs(now[i].error - left * off[i].error) < 1e-10);
+      for (const RigidBody& b : w.bodies) CHECK((b.v - v).norm() + b.omega.norm() < 1e-12);
+      const Vec3 now_centre = 0.25 * w.bodies[0].pose.x + 0.75 * w.bodies[1].pose.x;
+      CHECK((now_centre - centre - n * w.h * v).norm() < 1e-12);
+    }
+    CHECK(w.joint_error() < 1e-10);
+    CHECK(w.energy() == doctest::Approx(energy).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a coupling that does not fit turns its joints at the recovery speed") {
+  EventWorld w;
+  w.gravity.setZero();
+  for (uint32_t i = 0; i < 2; ++i) {
+    w.add(slim_rod({0, 2.0 * i, 0}));
+    w.join(JointKind::revolute, no_body, i, {{0, 2.0 * i, 0}, Quat::Identity()}).coupled = 1;
+  }
+  JointCoupling& gear = w.couplings.emplace_back();
+  gear.a = 0, gear.b = 1, gear.ratio = -2, gear.offset = 0.04;
+  const auto angle = [&](size_t i) { return 2 * std::asin(w.bodies[i].pose.q.z()); };
+  for (int n = 1; n * w.h < 1; ++n) {
+    w.step();
+    CAPTURE(n);
+    const double done = std::min(gear.offset, n * w.h * w.settings.recovery_speed);
+    CHECK(std::fabs(angle(0) + 2 * angle(1) - done) < 1e-10);
+    CHECK(w.bodies[0].omega.norm() + w.bodies[1].omega.norm() < 1e-12);
   }
 }
 

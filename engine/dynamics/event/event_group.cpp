@@ -288,6 +288,7 @@ Status EventGroup::too_much(uint64_t budget) {
 }
 
 Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t allowed) {
+  projection_.work_off_openings();
   if (part.begin == 0) {
     begin_tick();
   } else {

@@ -57,7 +57,7 @@ double GroupProjection::inner_energy() const {
   return sum;
 }
 
-JointDrift GroupProjection::hold_joints() {
+JointDrift GroupProjection::hold_joints(ContactCause cause) {
   if (state_.system.joints().empty()) return {};
   Articulation& joints = state_.system.joints();
   const std::vector<uint32_t>& slots = state_.group.bodies;
@@ -81,7 +81,7 @@ JointDrift GroupProjection::hold_joints() {
     pushes_.assign(joints.size(), 0);
     if (!known || now > tolerances::same_rows) factor();
     joints.close(moving_, pushes_);
-    move_bodies(moving_);
+    move_bodies(moving_, cause);
     before = now;
     now = error();
     known = now <= std::max(tolerances::closed_joint, tolerances::chord_contraction * before);
@@ -219,6 +219,15 @@ void GroupProjection::work_off_overlap() {
   }
   any |= drives_.accept_depths(worked_off);
   if (any) close_up(ContactCause::offset);
+}
+
+void GroupProjection::work_off_openings() {
+  const double worked_off =
+      (state_.part.end - state_.part.begin) * state_.context.settings.recovery_speed;
+  // No more than a step may open them is what the integrator erred.
+  if (state_.system.joints().accept_errors(state_.bodies, state_.system.now(),
+                                           std::max(tolerances::open_per_step, worked_off)))
+    hold_joints(ContactCause::offset);
 }
 
 }  // namespace tumble

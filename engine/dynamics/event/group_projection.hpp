@@ -19,9 +19,12 @@ class GroupProjection {
   /// Velocities that closed contacts and those that stick do not have.
   void project_velocities(ContactCause cause = ContactCause::projection);
   /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
-  JointDrift hold_joints();
-  /// Overlap that was there before is worked off; see EventSettings::recovery_speed.
+  /// `cause` is that of displacements.
+  JointDrift hold_joints(ContactCause cause = ContactCause::projection);
+  /// What was there before of overlap, and of joints that do not fit, is worked off; see
+  /// EventSettings::recovery_speed.
   void work_off_overlap();
+  void work_off_openings();
   /// Kinetic energy of all bodies about their common centre of mass.
   double inner_energy() const;
 

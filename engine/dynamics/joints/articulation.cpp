@@ -122,6 +122,8 @@ bool Articulation::renew(const JointsAndCouplings& all, const JointChoice& which
       seen_.clear();
     known = joint;
   }
+  if (!accepted_.empty()) seen_.clear();
+  accepted_.clear();
   return true;
 }
 
@@ -307,6 +309,7 @@ void Articulation::look(std::span<const RigidBody> bodies, double t) {
   }
   size_t at = first_row_[joints_.size()];
   for (Coupled& c : couplings_) rows_[at++] = update_coupling(c, bodies, t);
+  for (size_t i = 0; i < accepted_.size(); ++i) rows_[i].error -= accepted_[i];
   seen_.clear();
 }
 
@@ -377,6 +380,26 @@ double Articulation::error() const {
   double worst = 0;
   for (const JointRow& r : rows_) worst = std::max(worst, std::fabs(r.error));
   return worst;
+}
+
+bool Articulation::accept_errors(std::span<const RigidBody> bodies, double t, double worked_off) {
+  if (empty()) return false;
+  if (!accepted_.empty()) seen_.clear();
+  accepted_.clear();
+  look_where_moved(bodies, t);
+  for (size_t k = 0; k < owners(); ++k) {
+    const auto rows = std::span(rows_).subspan(first_row_[k], first_row_[k + 1] - first_row_[k]);
+    double square = 0;
+    for (const JointRow& r : rows) square += r.error * r.error;
+    const double off = std::sqrt(square);
+    if (!(off > worked_off)) continue;
+    accepted_.resize(rows_.size());
+    for (size_t i = 0; i < rows.size(); ++i) {
+      accepted_[first_row_[k] + i] = rows[i].error * (1 - worked_off / off);
+      rows[i].error -= accepted_[first_row_[k] + i];
+    }
+  }
+  return !accepted_.empty();
 }
 
 void Articulation::solve(std::span<double> change) const {

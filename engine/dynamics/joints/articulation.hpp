@@ -123,8 +123,12 @@ class Articulation {
   bool depends(size_t row) const {
     return core_row_[row] == no_row ? trees_.depends(row) : factor_.depends(core_row_[row]);
   }
-  /// Greatest |C| [m, rad].
+  /// Greatest |C| beyond what is accepted [m, rad].
   double error() const;
+  /// Joints and couplings that are off by more than so much are held, from here on, where they are
+  /// off by that much less: the errors that rows() has are what is left. Lengths of the vectors of
+  /// their errors [m, rad]. Gives whether there are such.
+  bool accept_errors(std::span<const RigidBody> bodies, double t, double worked_off);
 
   /// Changes accelerations of the blocks, in the place of velocities, so that d2C/dt2 = 0 of every
   /// row, as far as rows that depend on each other allow; adds the forces by row to those that
@@ -249,7 +253,8 @@ class Articulation {
   std::vector<BodyMass> masses_;                         ///< by block
   std::vector<double> gives_;                            ///< by row
   std::vector<JointRow> rows_;
-  std::vector<HeldRow> held_;  ///< by row
+  std::vector<double> accepted_;  ///< by row: the error that it is held at; empty: none
+  std::vector<HeldRow> held_;     ///< by row
   bool plain_ = true, parts_only_ = true;
   std::vector<uint8_t> stands_;  ///< by row
   BlockLdl factor_;              ///< of the core
