@@ -325,7 +325,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
           step *= tolerances::step_to_jam;
           continue;
         }
-        if (!impacts_.stop_slip(stats)) return done;
+        if (!impacts_.stop_jams(stats)) return done;
         y_ = start_.y;
         step = 0;
         break;

@@ -69,8 +69,7 @@ bool GroupDrives::ends_series(const DrivePart& p, double approach) const {
   return approach < tolerances::zeno_of_gravity_tick * back * state_.part.tick;
 }
 
-double GroupDrives::add_points(std::span<const size_t> touching, double slow,
-                               std::vector<ImpactPoint>& points) {
+double GroupDrives::add_points(std::span<const size_t> touching, std::vector<ImpactPoint>& points) {
   double fastest = 0;
   for (const size_t i : touching) {
     DrivePart& p = drives().parts()[i];
@@ -80,8 +79,9 @@ double GroupDrives::add_points(std::span<const size_t> touching, double slow,
     q.restitution = p.restitution;
     fastest = std::max(fastest, approach);
     if (approach <= tolerances::collision_speed) continue;
-    p.impacts += approach >= tolerances::still_speed;
-    if (approach < slow || ends_series(p, approach)) q.restitution = 0;
+    const bool still = approach < tolerances::still_speed;
+    p.impacts += !still;
+    if (still || ends_series(p, approach)) q.restitution = 0;
   }
   return fastest;
 }

@@ -22,10 +22,8 @@ class GroupDrives {
   /// Whether any of these is approached so fast that it collides.
   bool hit(std::span<const size_t> touching) const;
   /// Points of a collision, behind those that are there, of limits that are reached; counts impacts
-  /// of those that are approached, the slower than `slow` of which rest. Gives the fastest approach
-  /// of any [m/s, rad/s].
-  double add_points(std::span<const size_t> touching, double slow,
-                    std::vector<ImpactPoint>& points);
+  /// of those that are approached. Gives the fastest approach of any [m/s, rad/s].
+  double add_points(std::span<const size_t> touching, std::vector<ImpactPoint>& points);
   /// The mode that goes with the velocities.
   void set_modes() { drives().set_modes(state_.bodies, state_.system.now()); }
 

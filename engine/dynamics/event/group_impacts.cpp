@@ -105,103 +105,6 @@ void GroupImpacts::find_slip(EventContact& c, const ElementGap& g) const {
   if (c.sliding) c.slip = slip / speed;
 }
 
-double GroupImpacts::resting_speed() const {
-  double events = 0;
-  for (const EventContact& c : state_.contacts) events += c.impacts;
-  const double beyond = events - tolerances::many_events -
-                        tolerances::events_per_contact * double(state_.contacts.size());
-  if (!(beyond > 0)) return tolerances::still_speed;
-  const double most =
-      std::max(tolerances::still_speed,
-               tolerances::zeno_of_gravity_tick * (state_.context.gravity * state_.part.tick));
-  double speed = tolerances::still_speed;
-  for (double n = 0; n < beyond && speed < most; ++n) speed *= 2;
-  return std::min(speed, most);
-}
-
-bool GroupImpacts::mark_slow(double slow) {
-  bool any = false;
-  for (EventContact& c : state_.contacts) {
-    const ElementGap g = push_gap(c, state_.bodies);
-    if (!c.closed) {
-      if (!touches(c, g) || !(std::fabs(g.rate) <= slow)) continue;
-      c.closed = any = true;
-      const Vec3 slip = slip_of(c, g, state_.bodies);
-      c.sliding = c.friction > 0 && slip.norm() > slow;
-      if (c.sliding) c.slip = slip.normalized();
-    } else if (c.sliding && slip_of(c, g, state_.bodies).norm() <= slow) {
-      c.sliding = false;
-      any = true;
-    }
-  }
-  return any;
-}
-
-bool GroupImpacts::unmark_loose(std::span<const EventContact> before) {
-  double greatest = 0;
-  for (const EventContact& c : state_.contacts) greatest = std::max(greatest, c.force.norm());
-  bool any = false;
-  for (size_t i = 0; i < state_.contacts.size(); ++i) {
-    EventContact& c = state_.contacts[i];
-    if (c.closed == before[i].closed && c.sliding == before[i].sliding) continue;
-    const double normal = c.towards_b.dot(c.force);
-    const double lateral = (c.force - normal * c.towards_b).norm();
-    const bool pressed = normal > tolerances::carries_none * greatest;
-    const bool held = pressed && lateral < c.friction * normal * (1 - tolerances::on_cone);
-    if (!before[i].closed ? !pressed : !held)
-      c.closed = before[i].closed, c.sliding = before[i].sliding, c.slip = before[i].slip;
-    any |= c.closed != before[i].closed || c.sliding != before[i].sliding;
-  }
-  return any;
-}
-
-bool GroupImpacts::rest_marked(std::span<const EventContact> before) {
-  const std::vector<DofBlock> moving = state_.blocks();
-  state_.system.set_contacts(state_.contacts);
-  const std::vector<double> y = state_.system.read(state_.now);
-  std::vector<double> rates(state_.system.size());
-  const bool found = state_.system.derivative(state_.now, y, rates);
-  state_.set_velocities(moving);
-  if (!found || !unmark_loose(before)) return false;
-  // What comes to rest along the normals, then across them.
-  const std::vector<EventContact> rest = state_.contacts;
-  for (size_t i = 0; i < rest.size(); ++i)
-    if (before[i].closed) state_.contacts[i].sliding = before[i].sliding;
-  projection_.project_velocities(ContactCause::normal);
-  state_.contacts = rest;
-  projection_.project_velocities(ContactCause::friction);
-  // What slid on may have been stopped with the rest, or have turned.
-  for (EventContact& c : state_.contacts)
-    if (c.closed && c.sliding) find_slip(c, push_gap(c, state_.bodies));
-  return true;
-}
-
-void GroupImpacts::rest_slow() {
-  const double slow = resting_speed();
-  const std::vector<EventContact> before = state_.contacts;
-  if (!(slow > tolerances::still_speed) || !mark_slow(slow)) return;
-  if (!rest_marked(before)) state_.contacts = before;
-}
-
-bool GroupImpacts::stop_slowest(EventStats& stats) {
-  const std::vector<EventContact> before = state_.contacts;
-  std::vector<std::pair<double, size_t>> sliding;
-  for (size_t i = 0; i < before.size(); ++i)
-    if (before[i].sliding)
-      sliding.emplace_back(
-          slip_of(before[i], push_gap(before[i], state_.bodies), state_.bodies).norm(), i);
-  std::sort(sliding.begin(), sliding.end());
-  for (size_t n = 1; n <= sliding.size() && !stop_requested(); ++n) {
-    state_.contacts = before;
-    for (size_t k = 0; k < n; ++k) state_.contacts[sliding[k].second].sliding = false;
-    if (!rest_marked(before)) continue;
-    ++stats.jams;
-    return true;
-  }
-  state_.contacts = before;
-  return false;
-}
-
 void GroupImpacts::take_impulses(std::span<const size_t> touching, const ImpactReport& report,
                                  EventStats& stats) {
   for (size_t k = 0; k < touching.size(); ++k)
@@ -214,7 +117,6 @@ void GroupImpacts::take_impulses(std::span<const size_t> touching, const ImpactR
 Status GroupImpacts::collide(std::span<const size_t> touching, std::span<const size_t> limits,
                              EventStats& stats) {
   std::vector<ImpactPoint> points;
-  const double slow = resting_speed();
   double fastest = 0;
   for (const size_t i : touching) {
     EventContact& c = state_.contacts[i];
@@ -225,14 +127,14 @@ Status GroupImpacts::collide(std::span<const size_t> touching, std::span<const s
     const bool unseen = hops_unseen(c, g, state_.bodies, -c.restitution * g.rate);
     c.impacts += -g.rate >= tolerances::still_speed && !unseen;
     // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
-    if (-g.rate < slow || unseen ||
+    if (-g.rate < tolerances::still_speed || unseen ||
         (c.impacts > tolerances::many_impacts &&
          -g.rate < tolerances::zeno_of_gravity_tick * (state_.context.gravity * state_.part.tick)))
       p.restitution = 0;
   }
-  fastest = std::max(fastest, drives_.add_points(limits, slow, points));
+  fastest = std::max(fastest, drives_.add_points(limits, points));
   // Nor do those bounce that they pass it on to.
-  if (fastest < slow)
+  if (fastest < tolerances::still_speed)
     for (ImpactPoint& p : points) p.restitution = 0;
   std::vector<DofBlock> moving = state_.blocks();
   const Articulation& joints = state_.joints_now();
@@ -305,7 +207,6 @@ Status GroupImpacts::resolve(EventStats& stats) {
   }
   close_contacts();
   drives_.set_modes();
-  rest_slow();
   projection_.project();
   // Where others stick, so does what cannot slide without them.
   for (EventContact& c : state_.contacts)

@@ -22,8 +22,8 @@ void change_with(std::span<const Row> rows, std::span<const double> wanted,
 
 }  // namespace
 
-double GroupProjection::book(std::span<const DofBlock> after, ContactCause cause) {
-  CauseEffect& booked = state_.group.books.contacts[size_t(cause)];
+double GroupProjection::book(std::span<const DofBlock> after) {
+  CauseEffect& booked = state_.group.books.contacts[size_t(ContactCause::projection)];
   double twice = 0;
   for (size_t i = 0; i < after.size(); ++i) {
     const RigidBody& b = state_.bodies[state_.group.bodies[i]];
@@ -117,7 +117,7 @@ void GroupProjection::close_up(ContactCause cause) {
   }
 }
 
-void GroupProjection::project_velocities(ContactCause cause) {
+void GroupProjection::project_velocities() {
   std::vector<Row> rows;
   std::vector<double> wanted;
   for (const EventContact& c : state_.contacts) {
@@ -144,7 +144,7 @@ void GroupProjection::project_velocities(ContactCause cause) {
   change_with(rows, wanted, joints, moving);
   std::vector<double> pushes(joints.size());
   joints.hold_velocities(moving, pushes);
-  book(moving, cause);
+  book(moving);
   state_.set_velocities(moving);
 }
 

@@ -16,8 +16,6 @@ class GroupProjection {
   explicit GroupProjection(GroupState& state) : state_(state), drives_(state) {}
 
   void project();
-  /// Velocities that closed contacts and those that stick do not have.
-  void project_velocities(ContactCause cause = ContactCause::projection);
   /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
   /// `cause` is that of displacements.
   JointDrift hold_joints(ContactCause cause = ContactCause::projection);
@@ -29,6 +27,8 @@ class GroupProjection {
   double inner_energy() const;
 
  private:
+  /// Velocities that closed contacts and those that stick do not have.
+  void project_velocities();
   /// Gives how far the contact was off that was farthest off [m].
   double project_positions(ContactCause cause);
   /// project_positions() until nothing is off.
@@ -39,7 +39,7 @@ class GroupProjection {
   void add_turning(std::vector<Row>& rows, std::vector<double>& wanted) const;
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
   /// Gives the kinetic energy of the change.
-  double book(std::span<const DofBlock> after, ContactCause cause = ContactCause::projection);
+  double book(std::span<const DofBlock> after);
 
   GroupState& state_;
   GroupDrives drives_;

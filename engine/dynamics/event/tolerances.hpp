@@ -31,12 +31,8 @@ inline constexpr double place_rounding = 1e-12, place_rounding_share = 1e-14;
 /// the tick.
 inline constexpr int many_impacts = 8;
 inline constexpr double zeno_of_gravity_tick = 0.125;
-/// Impacts and ends of slip of a group in a tick, and as many more for each contact, beyond which
-/// what is slow rests [-]: twice what a series of bounces has.
-inline constexpr double many_events = 20, events_per_contact = 0.25;
-/// Of the greatest force, and of the friction cone: less carries nothing, and nearer to the cone is
-/// on it [-].
-inline constexpr double carries_none = 1e-9, on_cone = 1e-9;
+/// Of the friction cone: what is nearer to it is on it [-].
+inline constexpr double on_cone = 1e-9;
 /// Contacts of bodies that hang together, up to which their problem is posed as one for people to
 /// look at [-]: its matrix is dense, and nobody follows more.
 inline constexpr size_t most_posed_contacts = 100;
