@@ -24,7 +24,7 @@ struct EventContact {
 
   /// Depth that is accepted since it was there when the contact began [m]: never grows.
   double offset = 0;
-  int impacts = 0;              ///< and ends of slip, in this tick
+  int impacts = 0;              ///< in this tick
   bool closed = false;          ///< held at its offset
   bool sliding = false;         ///< closed and sliding, along `slip` at the start of the step
   Vec3 slip = Vec3::Zero();     ///< unit, world axes

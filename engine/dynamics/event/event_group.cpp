@@ -132,17 +132,15 @@ Status EventGroup::step_to_event(double t, double& step, EventStats& stats) {
   stats.substituted += state_.system.report().substituted;
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
   bool early = false;
-  EventContact* stopped = nullptr;
   for (int nearer = 0; nearer < tolerances::most_nearer_events; ++nearer) {
     const double event = first_event_.find(t, step);
     if (stop_requested()) return stopped_error();
     if (event >= step * (1 - tolerances::step_end)) break;
-    if (nearer == 0) early = true, stopped = first_event_.stopping();
+    early = true;
     step = event;
     if (Status done = step_to(t, step); !done) return done;
   }
   stats.events += early;
-  if (stopped) ++stopped->impacts;
   return {};
 }
 

@@ -62,8 +62,7 @@ void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
   if (w.value > away || hop == 0) return;
   // It never gets that far away: then it counts as back where it overlaps by more than `more`.
   const double more = hop - std::min(start, 0.0);
-  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more, nullptr,
-       w.traced};
+  w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more, w.traced};
 }
 
 /// Limits of joints that are reached; motors and friction whose rate is.
@@ -76,7 +75,7 @@ void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& wa
       return p.limit() ? drives.room(p, state_.bodies, now)
                        : p.side * drives.rate_off(p, state_.bodies, now);
     };
-    ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value(), nullptr});
+    ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value()});
     w.traced = trace_value(p.limit() ? WatchedValue::Kind::limit : WatchedValue::Kind::rate,
                            no_body, no_body, Vec3::Zero());
     trace_look(w.traced, 0, w.value, SearchLook::Stage::start);
@@ -90,7 +89,7 @@ void FirstEvent::watch_turning(std::vector<ValueWatch>& watched) {
   for (const TurningPart& p : state_.system.turning()) {
     const auto now = [this, &p] { return turning_of(p, state_.contacts, state_.bodies); };
     const auto watch = [&](WatchedValue::Kind kind, const std::function<double()>& value) {
-      ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value(), nullptr});
+      ValueWatch& w = watched.emplace_back(ValueWatch{value, 0, value()});
       if (!search_) return;
       const EventContact& c = state_.contacts[p.contacts[0]];
       w.traced = trace_value(kind, c.key.body_a, c.key.body_b, place_now(c, state_.bodies).x_world);
@@ -105,7 +104,6 @@ void FirstEvent::watch_turning(std::vector<ValueWatch>& watched) {
 
 double FirstEvent::find(double t, double step) {
   std::vector<ValueWatch> watched;
-  stopping_ = nullptr;
   search_ = trace_ ? trace_->begin(t, step) : nullptr;
   place_at(t);
   watch_drives(t, step, watched);
@@ -116,8 +114,8 @@ double FirstEvent::find(double t, double step) {
       if (c.closed && !c.sliding) continue;
       const double value = event_value(c);
       if (!c.closed && value > reach) continue;
-      ValueWatch& w = watched.emplace_back(
-          ValueWatch{[this, &c] { return event_value(c); }, 0, value, c.closed ? &c : nullptr});
+      ValueWatch& w =
+          watched.emplace_back(ValueWatch{[this, &c] { return event_value(c); }, 0, value});
       const Vec3 x =
           c.closed && !search_ ? Vec3(Vec3::Zero()) : place_now(c, state_.bodies).x_world;
       w.traced = trace_value(c.closed ? WatchedValue::Kind::slip : WatchedValue::Kind::gap,
@@ -148,11 +146,9 @@ double FirstEvent::find(double t, double step) {
       first = find_root(t, w.value_now, w.lo, w.value, first, value, 0, w.traced);
       found = true;
       trace_found(first, w.traced);
-      stopping_ = w.slides;
       place_at(t + first);
     }
     const double touch = first_touch(t, lo, first, touching, tolerances::most_divisions);
-    if (touch < first) stopping_ = nullptr;
     if (found || touch < first) return std::min(first, touch);
   }
   return step;

@@ -14,8 +14,6 @@ class FirstEvent {
 
   /// Its time after the start of the step at t, or `step` when there is none.
   double find(double t, double step);
-  /// Whose slip the event that was found last ended, if it did.
-  EventContact* stopping() const { return stopping_; }
 
  private:
   /// Positive before the contact's next event: the room that is left, or the slip along itself.
@@ -24,7 +22,6 @@ class FirstEvent {
   struct ValueWatch {
     std::function<double()> value_now;
     double lo, value;                ///< until when nothing happened, and the value there
-    EventContact* slides = nullptr;  ///< whose slip it is
     int traced = EventSearch::none;  ///< its place in the trace
   };
   void watch_drives(double t, double step, std::vector<ValueWatch>& watched);
@@ -56,7 +53,6 @@ class FirstEvent {
   GroupState& state_;
   const ode::Integrator& integrator_;
   std::vector<double> y_;
-  EventContact* stopping_ = nullptr;
   EventSearchTrace* trace_ = nullptr;  ///< null where the body that is looked at is elsewhere
   EventSearch* search_ = nullptr;      ///< the present one in it
 };
