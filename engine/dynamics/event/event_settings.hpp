@@ -35,7 +35,8 @@ struct EventSettings {
     v.field(d.recovery_speed, {.name = "recovery_speed",
                                .unit = "m/s",
                                .min = 0,
-                               .doc = "how fast overlap is worked off that there was before"});
+                               .doc = "how fast overlap is worked off that there was before, and "
+                                      "what joints are off by; likewise in rad/s"});
     v.field(d.budget, {.name = "budget",
                        .min = 1,
                        .max = 1000000,
