@@ -46,7 +46,8 @@ struct Joint {
   double length = 1;
   bool collide = false;
   std::shared_ptr<const JointDrives> drives;  ///< null: nothing acts along the coordinates
-  /// By row, of the two passes of the last sub-step [N] or [N m]: warm start. Their sum acts on B.
+  /// By row, before the bodies moved in the last sub-step and after it, without what worked off
+  /// errors [N] or [N m]: warm start. Their sum acts on B.
   /// Behind the rows of the parts, those of the coordinates.
   std::array<double, JointRows::most> moving_force{}, relaxing_force{};
   /// By coordinate, after the last tick: value, angles counted over full turns, and rate.

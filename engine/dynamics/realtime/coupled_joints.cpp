@@ -115,10 +115,8 @@ void set_lines(const SolverIsland& island, CoupledJoints& all) {
 }
 
 double& impulse_of(CouplingBlock& c, JointPass pass) {
-  return pass == JointPass::moving ? c.moving : c.relaxing;
-}
-double& impulse_of(JointBlock& joint, uint32_t i, JointPass pass) {
-  return pass == JointPass::moving ? joint.moving[i] : joint.relaxing[i];
+  if (pass == JointPass::relaxing) return c.relaxing;
+  return pass == JointPass::moving ? c.moving : c.correcting;
 }
 
 }  // namespace
@@ -191,6 +189,7 @@ void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass)
   for (CoupledJoints& all : island.coupled)
     for (uint32_t k = 0; k < all.couplings.size(); ++k) {
       double& impulse = impulse_of(all.couplings[k], pass);
+      if (pass == JointPass::moving) all.couplings[k].correcting = 0;
       const Line& line = all.lines[first_coupling_row(all) + k];
       for (uint32_t end = 0; end < line.ends; ++end)
         if (turns_away(island.bodies[line.body[end]], impulse * line.angular[end], hs)) impulse = 0;
@@ -198,9 +197,7 @@ void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass)
     }
 }
 
-void solve_coupled(const SolverIsland& island, double hs, const Softness& softness, JointPass pass,
-                   CoupledJoints& all) {
-  const Softness soft = pass == JointPass::moving ? softness : Softness{};
+void solve_coupled(const SolverIsland& island, double hs, JointPass pass, CoupledJoints& all) {
   const auto k = entries(all);
   std::vector<double>& change = all.change;
   change.resize(all.count);
@@ -210,13 +207,13 @@ void solve_coupled(const SolverIsland& island, double hs, const Softness& softne
   impulses.resize(all.count);
   drives.resize(all.count);
   const auto keep = [&](uint32_t row, double error, double bias, double& impulse) {
-    change[row] = kept_velocity(change[row], error, bias, hs, soft, pass);
+    change[row] = kept_velocity(change[row], error, bias, hs, island.joint_softness, pass);
     impulses[row] = &impulse;
   };
   for_joint_rows(island, all, [&](JointBlock& joint, uint32_t i, uint32_t row) {
     if (i < joint.kept)
-      return keep(row, joint.lines[i].error, joint.lines[i].bias, impulse_of(joint, i, pass));
-    impulses[row] = &impulse_of(joint, i, pass);
+      return keep(row, joint.lines[i].error, joint.lines[i].bias, joint.impulse(i, pass));
+    impulses[row] = &joint.impulse(i, pass);
     drives[row] = &drives_of(island, joint)[i - joint.kept];
   });
   for (uint32_t i = 0; i < all.couplings.size(); ++i) {
@@ -234,7 +231,7 @@ void solve_coupled(const SolverIsland& island, double hs, const Softness& softne
   substitute_kept(k, all.kept, all.count, change);
   for (uint32_t i = 0; i < all.count; ++i) {
     const double by = i < all.kept
-                          ? -soft.mass_scale * change[i] - soft.impulse_scale * *impulses[i]
+                          ? kept_change(change[i], *impulses[i], island.joint_softness, pass)
                           : -change[i];
     *impulses[i] += by;
     push(island, all.lines[i], by);
@@ -244,7 +241,7 @@ void solve_coupled(const SolverIsland& island, double hs, const Softness& softne
 void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
   for (CoupledJoints& all : island.coupled) {
     for (CouplingBlock& c : all.couplings) {
-      const double impulse = impulse_of(c, pass);
+      const double impulse = pass == JointPass::relaxing ? c.relaxing : c.moving + c.correcting;
       for (size_t half = 0; half < 2; ++half) {
         if (c.block[half] == CouplingBlock::none) continue;
         const JointBlock::Line& line = c.lines[half];

@@ -13,7 +13,6 @@ namespace tumble {
 
 struct SolverContext;
 struct SolverIsland;
-struct Softness;
 
 /// One coupling of an island as the inner loops see it. Impulses are those of one sub-step.
 struct CouplingBlock {
@@ -24,7 +23,7 @@ struct CouplingBlock {
   std::array<JointBlock::Line, 2> lines;  ///< the halves of its row: see CouplingRow
   double error = 0, bias = 0;
   FollowedCoordinate x, y;
-  double moving = 0, relaxing = 0;
+  double moving = 0, correcting = 0, relaxing = 0;  ///< as of JointBlock
   struct {
     double moving = 0, relaxing = 0;
   } before_blow;
@@ -65,8 +64,7 @@ void prepare_couplings(const SolverContext& context, const SolverIsland& island,
 /// After the joints' own lines.
 void refresh_couplings(const SolverContext& context, const SolverIsland& island, double hs);
 void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass);
-void solve_coupled(const SolverIsland& island, double hs, const Softness& softness, JointPass pass,
-                   CoupledJoints& coupled);
+void solve_coupled(const SolverIsland& island, double hs, JointPass pass, CoupledJoints& coupled);
 /// Adds the pushes to the sums of the joints.
 void sum_couplings(const SolverIsland& island, double hs, JointPass pass);
 /// Gives the greatest velocity that is left in a row.

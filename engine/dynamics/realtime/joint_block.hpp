@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/joints/joint.hpp"
 #include "engine/dynamics/joints/joint_push.hpp"
+#include "engine/dynamics/realtime/joint_pass.hpp"
 
 #include <array>
 #include <cstdint>
@@ -32,14 +33,27 @@ struct JointBlock {
   /// Only the kept rows are eliminated: the block of the coordinates is what these leave of K, as
   /// compliance.
   std::array<Values, most> factor;
-  Values moving{};    ///< impulses that move the bodies onto the joint
-  Values relaxing{};  ///< impulses that then put velocities right
+  // Impulses of the passes. In ordinary islands those that work off errors are forgotten with the
+  // sub-step.
+  Values moving{};
+  Values correcting{};  ///< of kept rows; those of coordinates go on with `moving`
+  Values relaxing{};
   struct {
     Values moving{}, relaxing{};
   } before_blow;            ///< see remember_impulses
   Values speeds{};          ///< of kept rows before a pass, of ticks in which something bounces
   Values before_bounces{};  ///< `relaxing` before contacts bounced
   JointPush sum;            ///< of the sub-steps so far
+
+  /// The impulse of a row that a pass changes.
+  double& impulse(uint32_t row, JointPass pass) {
+    if (pass == JointPass::relaxing) return relaxing[row];
+    return pass == JointPass::correcting && row < kept ? correcting[row] : moving[row];
+  }
+  /// The impulse of a row before the bodies move, or after it.
+  double total(uint32_t row, JointPass pass) const {
+    return pass == JointPass::relaxing ? relaxing[row] : moving[row] + correcting[row];
+  }
 };
 
 }  // namespace tumble

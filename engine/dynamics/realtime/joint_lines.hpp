@@ -17,6 +17,13 @@ inline double line_velocity(const SolverBody& a, const SolverBody& b, const Join
   return row.linear.dot(b.v - a.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
 }
 
+/// The change of a kept row's impulse that takes this velocity away.
+inline double kept_change(double velocity_over_mass, double impulse, const Softness& soft,
+                          JointPass pass) {
+  if (pass != JointPass::correcting) return -velocity_over_mass;
+  return -soft.mass_scale * velocity_over_mass - soft.impulse_scale * impulse;
+}
+
 inline std::span<DriveRow> drives_of(const SolverIsland& island, const JointBlock& joint) {
   return island.drives.subspan(joint.first_drive, joint.count - joint.kept);
 }
@@ -42,10 +49,12 @@ inline bool turns_away(const SolverBody& body, const Vec3& moment, double hs) {
 /// is C + hs J v + hs^2/2 (dJ/dt v).
 inline double kept_velocity(double velocity, double error, double bias, double hs,
                             const Softness& soft, JointPass pass) {
-  const double correction = std::clamp(soft.bias_rate * error, -tolerances::max_joint_correction,
-                                       tolerances::max_joint_correction);
-  const double target = pass == JointPass::moving ? correction + 0.5 * hs * bias : 0;
-  return velocity + target;
+  if (pass == JointPass::relaxing) return velocity;
+  velocity += 0.5 * hs * bias;
+  if (pass == JointPass::correcting)
+    velocity += std::clamp(soft.bias_rate * error, -tolerances::max_joint_correction,
+                           tolerances::max_joint_correction);
+  return velocity;
 }
 
 }  // namespace tumble

@@ -1,12 +1,14 @@
 // Joints in the inner loops of the realtime solver.
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
+#include "engine/dynamics/realtime/blows.hpp"
 #include "engine/dynamics/realtime/joint_lines.hpp"
 #include "engine/dynamics/realtime/kept_rows.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 
@@ -56,19 +58,24 @@ void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& jo
                  joint.kept, joint.count, scaled);
 }
 
-JointPush push_of(const JointBlock& joint, const Values& impulse) {
+/// Of impulse(row).
+template <class F>
+JointPush push_of(const JointBlock& joint, const F& impulse) {
   JointPush push;
   for (uint32_t i = 0; i < joint.count; ++i) {
     const JointBlock::Line& row = joint.lines[i];
-    push.impulse += impulse[i] * row.linear;
-    push.moment_a += impulse[i] * row.angular_a;
-    push.moment_b += impulse[i] * row.angular_b;
+    const double of_row = impulse(i);
+    push.impulse += of_row * row.linear;
+    push.moment_a += of_row * row.angular_a;
+    push.moment_b += of_row * row.angular_b;
   }
   return push;
 }
+JointPush push_of(const JointBlock& joint, const Values& impulse) {
+  return push_of(joint, [&impulse](uint32_t i) { return impulse[i]; });
+}
 
-void push_joint(const SolverIsland& island, const JointBlock& joint, const Values& impulse) {
-  const JointPush push = push_of(joint, impulse);
+void push_joint(const SolverIsland& island, const JointBlock& joint, const JointPush& push) {
   SolverBody& a = island.bodies[joint.a];
   SolverBody& b = island.bodies[joint.b];
   a.v -= a.inverse_mass * push.impulse;
@@ -77,19 +84,16 @@ void push_joint(const SolverIsland& island, const JointBlock& joint, const Value
   b.w += b.inverse_inertia * push.moment_b;
 }
 
-void solve_joint(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass,
-                 JointBlock& joint) {
-  const bool moving = pass == JointPass::moving;
-  const Softness soft = moving ? stiffness : Softness{};
+void solve_joint(const SolverIsland& island, double hs, JointPass pass, JointBlock& joint) {
   const SolverBody& a = island.bodies[joint.a];
   const SolverBody& b = island.bodies[joint.b];
-  Values& impulse = moving ? joint.moving : joint.relaxing;
   Values change;
   for (uint32_t i = joint.kept; i < joint.count; ++i)
     change[i] = line_velocity(a, b, joint.lines[i]);
   for (uint32_t i = 0; i < joint.kept; ++i) {
     const JointBlock::Line& row = joint.lines[i];
-    change[i] = kept_velocity(line_velocity(a, b, row), row.error, row.bias, hs, soft, pass);
+    change[i] = kept_velocity(line_velocity(a, b, row), row.error, row.bias, hs,
+                              island.joint_softness, pass);
   }
   eliminate_kept(entries(joint), joint.kept, joint.count, change);
   if (joint.count > joint.kept) {
@@ -98,15 +102,16 @@ void solve_joint(const SolverIsland& island, double hs, const Softness& stiffnes
     solve_laws(
         entries(joint), joint.kept, joint.count,
         [first](uint32_t i, double free) { return first[i].solve(free); },
-        [&impulse](uint32_t i) { return impulse[i]; }, of_laws, change);
+        [&joint, pass](uint32_t i) { return joint.impulse(i, pass); }, of_laws, change);
   }
   substitute_kept(entries(joint), joint.kept, joint.count, change);
   for (uint32_t i = 0; i < joint.count; ++i) {
-    change[i] = i < joint.kept ? -soft.mass_scale * change[i] - soft.impulse_scale * impulse[i]
-                               : -change[i];
-    impulse[i] += change[i];
+    change[i] = i < joint.kept
+                    ? kept_change(change[i], joint.total(i, pass), island.joint_softness, pass)
+                    : -change[i];
+    joint.impulse(i, pass) += change[i];
   }
-  push_joint(island, joint, change);
+  push_joint(island, joint, push_of(joint, change));
 }
 
 /// Force laws of a pass, before any impulse of it.
@@ -157,7 +162,7 @@ void add_drives(const Joint& from, size_t first, JointBlock& joint, std::vector<
 
 void sum_joints(const SolverIsland& island, double hs, JointPass pass) {
   for (JointBlock& joint : island.joints) {
-    joint.sum.add(push_of(joint, pass == JointPass::moving ? joint.moving : joint.relaxing));
+    joint.sum.add(push_of(joint, [&](uint32_t i) { return joint.total(i, pass); }));
     for (DriveRow& d : drives_of(island, joint)) {
       d.add_up();
       if (pass == JointPass::moving)
@@ -224,137 +229,64 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
   start_drives(island, hs, pass);
   for (JointBlock& joint : island.joints) {
     Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
+    if (pass == JointPass::moving) joint.correcting.fill(0);
     const JointPush push = push_of(joint, impulse);
     if (turns_away(island.bodies[joint.a], push.moment_a, hs) ||
         turns_away(island.bodies[joint.b], push.moment_b, hs))
       impulse.fill(0);
     else
-      push_joint(island, joint, impulse);
+      push_joint(island, joint, push);
   }
   warm_start_couplings(island, hs, pass);
 }
 
-void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffness,
-                  JointPass pass) {
-  for (int k = 0; k < island.joint_sweeps; ++k) {
+void sweep_joints(const SolverIsland& island, double hs, JointPass pass, JointSweeps which) {
+  for (int k = which.begin; k < which.end; ++k) {
     if (k % 2 == 0) {
       for (JointBlock& joint : island.joints)
-        if (!joint.coupled) solve_joint(island, hs, stiffness, pass, joint);
-      for (CoupledJoints& coupled : island.coupled)
-        solve_coupled(island, hs, stiffness, pass, coupled);
+        if (!joint.coupled) solve_joint(island, hs, pass, joint);
+      for (CoupledJoints& coupled : island.coupled) solve_coupled(island, hs, pass, coupled);
     } else {
       for (size_t i = island.coupled.size(); i-- > 0;)
-        solve_coupled(island, hs, stiffness, pass, island.coupled[i]);
+        solve_coupled(island, hs, pass, island.coupled[i]);
       for (size_t i = island.joints.size(); i-- > 0;)
-        if (!island.joints[i].coupled) solve_joint(island, hs, stiffness, pass, island.joints[i]);
+        if (!island.joints[i].coupled) solve_joint(island, hs, pass, island.joints[i]);
     }
   }
-}
-
-void put_limits(const SolverIsland& island, double hs) {
-  for (const JointBlock& joint : island.joints) {
-    const std::span<DriveRow> drives = drives_of(island, joint);
-    for (uint32_t k = 0; k < drives.size(); ++k)
-      if (drives[k].nears_limit)
-        drives[k].put_limits(line_velocity(island.bodies[joint.a], island.bodies[joint.b],
-                                           joint.lines[joint.kept + k]),
-                             hs);
-  }
-}
-
-double blow_change(const SolverIsland& island) {
-  double most = 0;
-  for (const JointBlock& joint : island.joints)
-    for (DriveRow& d : drives_of(island, joint)) {
-      if (!d.bounces()) continue;
-      const double blow = d.shares[DriveRow::lower] + d.shares[DriveRow::upper];
-      if (blow != d.blow) most = std::max(most, std::fabs(blow - d.blow) / std::fabs(blow));
-      d.blow = blow;
-    }
-  return most;
 }
 
 namespace {
 
-template <class F>
-bool any_drive(const SolverIsland& island, const F& is) {
-  return std::ranges::any_of(island.joints, [&](const JointBlock& joint) {
-    return std::ranges::any_of(drives_of(island, joint), is);
-  });
-}
-
-/// f(block) of joints and of couplings.
-template <class F>
-void for_blocks(const SolverIsland& island, const F& f) {
-  for (JointBlock& joint : island.joints) f(joint);
+/// What works off errors becomes part of what is remembered.
+void keep_corrections(const SolverIsland& island) {
+  for (JointBlock& joint : island.joints)
+    for (uint32_t i = 0; i < joint.kept; ++i)
+      joint.moving[i] += std::exchange(joint.correcting[i], 0);
   for (CoupledJoints& coupled : island.coupled)
-    for (CouplingBlock& c : coupled.couplings) f(c);
-}
-
-void scale(double& now, double before, double share) {
-  now = before + share * (now - before);
-}
-void scale(JointBlock::Values& now, const JointBlock::Values& before, double share) {
-  for (size_t i = 0; i < now.size(); ++i) scale(now[i], before[i], share);
+    for (CouplingBlock& c : coupled.couplings) c.moving += std::exchange(c.correcting, 0);
 }
 
 }  // namespace
 
-bool nears_limit(const SolverIsland& island) {
-  return any_drive(island, &DriveRow::nears_limit);
-}
-bool limit_bounces(const SolverIsland& island) {
-  return any_drive(island, &DriveRow::bounces);
-}
-
-void remember_impulses(const SolverIsland& island) {
-  for_blocks(island, [](auto& block) { block.before_blow = {block.moving, block.relaxing}; });
-}
-void recall_impulses(const SolverIsland& island) {
-  for_blocks(island, [](auto& block) {
-    block.moving = block.before_blow.moving;
-    block.relaxing = block.before_blow.relaxing;
-  });
-}
-
-void note_joint_speeds(const SolverIsland& island) {
-  for (JointBlock& joint : island.joints)
-    for (uint32_t i = 0; i < joint.kept; ++i)
-      joint.speeds[i] =
-          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]);
-}
-double taken_by_joints(const SolverIsland& island, JointPass pass) {
-  double taken = 0;
-  for (const JointBlock& joint : island.joints) {
-    const Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
-    for (uint32_t i = 0; i < joint.kept; ++i)
-      taken -= 0.5 * impulse[i] *
-               (joint.speeds[i] +
-                line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]));
-  }
-  return taken;
-}
-
-void remember_relaxing(const SolverIsland& island) {
-  for_blocks(island, [](auto& block) { block.before_bounces = block.relaxing; });
-}
-void scale_bounces(const SolverIsland& island, double share) {
-  for_blocks(island, [&](auto& block) { scale(block.relaxing, block.before_bounces, share); });
-}
-
-void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness,
-                  JointPass pass) {
-  if (pass == JointPass::moving && nears_limit(island)) {
-    sweep_joints(island, hs, stiffness, pass);
+void move_onto_joints(const SolverIsland& island, double hs) {
+  const JointSweeps all{0, island.joint_sweeps};
+  if (nears_limit(island)) {
+    sweep_joints(island, hs, JointPass::correcting, all);
+    keep_corrections(island);
     remember_impulses(island);
     put_limits(island, hs);
   }
-  sweep_joints(island, hs, stiffness, pass);
-  if (pass == JointPass::moving) return;
+  sweep_joints(island, hs, JointPass::correcting, all);
+  keep_corrections(island);
+}
+
+void relax_joints(const SolverIsland& island, double hs) {
+  const JointSweeps all{0, island.joint_sweeps};
+  sweep_joints(island, hs, JointPass::relaxing, all);
   // A blow goes through the whole mechanism.
   for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
     if (!(blow_change(island) > tolerances::bounce_error)) return;
-    sweep_joints(island, hs, stiffness, pass);
+    sweep_joints(island, hs, JointPass::relaxing, all);
   }
 }
 

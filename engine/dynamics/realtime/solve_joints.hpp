@@ -8,7 +8,10 @@ namespace tumble {
 
 /// Sub-steps of joints in the realtime solver. A sub-step is that of RATTLE (Andersen 1983):
 /// impulses along the Jacobian of its start so that its end is on the joint, then impulses along
-/// the Jacobian of its end so that velocities are too; both are warm-started on their own. Rows of
+/// the Jacobian of its end so that velocities are too; both are warm-started on their own. In
+/// ordinary islands what works off errors that earlier sub-steps left is no part of that:
+/// remembered, it would go on adding up while sweeps that have not converged leave the error, and
+/// would set in motion slow modes of a mechanism, ever faster, from nothing. Rows of
 /// one joint are solved together, joints one after the other in the order of their ids. What acts
 /// along the coordinates of a joint (drive_row.hpp) has rows behind those of its parts: each is one
 /// scalar problem with the compliance that the parts leave, so that a motor does not fight its own
@@ -26,42 +29,19 @@ void refresh_joints(const SolverContext& context, const SolverIsland& island, do
 /// Starts a pass: the force laws of the coordinates, and the impulses of the sub-step before, but
 /// for bodies that turn too far (tolerances.hpp).
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
-/// SolverIsland::joint_sweeps sweeps, there and back. `stiffness` is that of the moving pass,
-/// as factors of the soft step.
-void solve_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
+/// The sweeps of a precise island before the bodies move, and after it. Before it all of them work
+/// off errors and are remembered: so many leave little of any mode.
+void move_onto_joints(const SolverIsland& island, double hs);
+void relax_joints(const SolverIsland& island, double hs);
 
-// What solve_joints is made of, for islands of which only a part is in these rows.
+// What these are made of, for islands of which only a part is in these rows.
 
-/// The sweeps alone.
-void sweep_joints(const SolverIsland& island, double hs, const Softness& stiffness, JointPass pass);
-/// Whether a limit that bounces may be met: the moving pass is solved without such limits first.
-bool nears_limit(const SolverIsland& island);
-/// These limits take part from here on.
-void put_limits(const SolverIsland& island, double hs);
-/// The greatest change of a blow on a limit since this was asked last, as a share of it; 0 when
-/// none bounces.
-double blow_change(const SolverIsland& island);
-
-// Impulses of a sub-step in which there was a blow say nothing of the next one, which would give
-// it again: that one starts from those before.
-
-/// Whether a limit gave back a blow in the last relaxing pass; then impulses were remembered before
-/// the limit was met.
-bool limit_bounces(const SolverIsland& island);
-void remember_impulses(const SolverIsland& island);
-void recall_impulses(const SolverIsland& island);
-
-/// As note_speeds and taken_by_contacts, of the kept rows: what the other rows of an island leave
-/// to them.
-void note_joint_speeds(const SolverIsland& island);
-double taken_by_joints(const SolverIsland& island, JointPass pass);
-/// Before contacts bounce, and to leave no more than this share of what joints gave to that.
-void remember_relaxing(const SolverIsland& island);
-void scale_bounces(const SolverIsland& island, double share);
-
-/// Adds the impulses of a pass to JointBlock::sum, by the rows that they went along.
+/// Some sweeps of a pass.
+void sweep_joints(const SolverIsland& island, double hs, JointPass pass, JointSweeps which);
+/// Adds the impulses before the bodies moved (`moving`), or after that, to JointBlock::sum, by the
+/// rows that they went along.
 void sum_joints(const SolverIsland& island, double hs, JointPass pass);
-/// How stiff joints are for sub-steps of `hs`.
+/// How softly joints of precise islands close for sub-steps of `hs`.
 Softness joint_softness(double hs);
 /// Writes the impulses back to the joints, and their sums; gives the greatest velocity left in a
 /// row [m/s, rad/s].

@@ -50,7 +50,7 @@ constexpr size_t wide_sorts = 5;
 /// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled.
 struct SolvePlan {
   int substeps = 1;
-  int joint_sweeps = 1;  ///< in each pass
+  int joint_sweeps = 1;  ///< before the bodies move, and after it
   bool wide = false;     ///< ordinary: solved by WideIsland
   WideSort sort = WideSort::plain;
 };

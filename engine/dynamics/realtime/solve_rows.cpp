@@ -224,67 +224,6 @@ double apply_restitution(const SolverContext& c, const SolverIsland& island) {
   return most;
 }
 
-namespace {
-
-/// f(point, its normal speed) of those that bounce.
-template <class F>
-void for_bouncing(const SolverIsland& island, const F& f) {
-  for (const ContactRow& row : island.rows)
-    for (PointRow& p : island.points.subspan(row.first, row.count))
-      if (p.bounce > 0) f(p, row.n.dot(Pair(island.bodies[row.a], island.bodies[row.b]).slip(p)));
-}
-
-}  // namespace
-
-bool bounces(const SolverIsland& island) {
-  return std::ranges::any_of(island.points, [](const PointRow& p) { return p.bounce > 0; });
-}
-void note_speeds(const SolverIsland& island, double share) {
-  for_bouncing(island, [share](PointRow& p, double speed) {
-    p.speed_before = speed;
-    p.normal_before = share * p.normal;
-  });
-}
-double taken_by_contacts(const SolverIsland& island) {
-  double taken = 0;
-  for_bouncing(island, [&taken](const PointRow& p, double speed) {
-    taken -= 0.5 * (p.normal - p.normal_before) * (p.speed_before + speed);
-  });
-  return taken;
-}
-
-void remember_velocities(const SolverIsland& island) {
-  for (size_t i = 0; i < island.bodies.size(); ++i) {
-    island.motions[i].v_before = island.bodies[i].v;
-    island.motions[i].w_before = island.bodies[i].w;
-  }
-}
-
-double bearable_share(const SolverIsland& island, double taken) {
-  // A share s of the blow gives s linear + s^2 square.
-  double linear = 0, square = 0;
-  for_bouncing(island, [&](const PointRow& p, double speed) {
-    linear += p.rebound * p.speed_before;
-    square += 0.5 * p.rebound * (speed - p.speed_before);
-  });
-  taken = std::max(taken, 0.0);
-  if (!(square > 0) || linear + square <= taken) return 1;
-  return std::min((std::sqrt(linear * linear + 4 * square * taken) - linear) / (2 * square), 1.0);
-}
-
-void scale_blow(const SolverIsland& island, double share) {
-  for (size_t i = 0; i < island.bodies.size(); ++i) {
-    SolverBody& body = island.bodies[i];
-    const SolverMotion& from = island.motions[i];
-    body.v = from.v_before + share * (body.v - from.v_before);
-    body.w = from.w_before + share * (body.w - from.w_before);
-  }
-  for (PointRow& p : island.points) {
-    p.normal_sum -= (1 - share) * p.rebound;
-    p.rebound *= share;
-  }
-}
-
 double store_rows(const SolverContext& c, const SolverIsland& island, double hs) {
   double residual = 0;
   for (const ContactRow& row : island.rows) {

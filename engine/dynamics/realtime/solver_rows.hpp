@@ -104,10 +104,17 @@ struct SolverIsland {
   std::span<ContactRow> rows;
   std::span<PointRow> points;
   std::span<JointBlock> joints;
-  int joint_sweeps = 1;             ///< in each pass
+  int joint_sweeps = 1;             ///< before the bodies move, and after it
   std::span<DriveRow> drives = {};  ///< of the joints, and of others
   std::span<CoupledJoints> coupled = {};
-  double kick = 0;  ///< how long forces act in a sub-step before joints do [s]
+  double kick = 0;               ///< how long forces act in a sub-step before joints do [s]
+  Softness joint_softness = {};  ///< of the correcting pass
+};
+
+/// What the last sub-step left.
+struct SolveResiduals {
+  double contacts = 0;  ///< greatest approach speed at a pressed point [m/s]
+  double joints = 0;    ///< greatest velocity left in a row of a joint [m/s, rad/s]
 };
 
 struct SolverContext {
@@ -146,23 +153,6 @@ void sum_impulses(const SolverIsland& island);
 /// The greatest change, as a share of the speed that was asked for; 0 when nothing bounced. Joints
 /// may take some of it away again: both are repeated in turn, which only then takes back anything.
 double apply_restitution(const SolverContext& context, const SolverIsland& island);
-
-// Of impulses P_i that act at once and change speeds along them from u_i to w_i each takes
-// -P_i (u_i + w_i) / 2 of the energy. Beside joints a blow gives back no more than the contacts
-// that bounce, and the joints that these shook, have taken in the tick: the approach was measured
-// before it, and in a mechanism a point may be slower when it comes to touch.
-
-bool bounces(const SolverIsland& island);
-/// Before a pass whose impulses are those of its points beyond `share` of what they have now, and
-/// before a blow.
-void note_speeds(const SolverIsland& island, double share);
-/// What the impulses since then took [J].
-double taken_by_contacts(const SolverIsland& island);
-void remember_velocities(const SolverIsland& island);
-/// The share of a blow since then that may stay where `taken` was taken [J].
-double bearable_share(const SolverIsland& island, double taken);
-/// Leaves this share of the blow to velocities and contacts.
-void scale_blow(const SolverIsland& island, double share);
 
 /// Writes the impulses back to the contacts; gives the greatest approach speed at a pressed point.
 double store_rows(const SolverContext& context, const SolverIsland& island, double hs);

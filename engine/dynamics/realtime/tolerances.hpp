@@ -43,7 +43,9 @@ inline constexpr double on_round_surface = 1e-9;
 /// contacts have a quarter, the bound of Box2D 3.0 (Catto 2024), above which they ring.
 inline constexpr double contact_frequency_share = 0.125;
 inline constexpr double joint_frequency_share = 0.25;
-/// Damping of joints, of critical [-]: as in Box2D 3.0 (Catto 2024).
+/// Damping of joints, of critical [-]: as in Box2D 3.0 (Catto 2024). With this and the frequency a
+/// sub-step works off 28 % of an error; with half of it a swinging chain of twenty links in an
+/// ordinary island gained 2 J.
 inline constexpr double joint_damping_ratio = 2;
 /// Frequency of hard contacts (is_hard) in multiples of that of others [-]: as Box2D 3.0 has it
 /// against what cannot move (Catto 2024).

@@ -1,5 +1,7 @@
 // Blows, of bounces and of limits of joints, go through whole mechanisms, in each island for
 // itself.
+#include "engine/dynamics/realtime/blows.hpp"
+
 #include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
@@ -98,9 +100,9 @@ void WideIsland::end_substep(Crew& crew, double hs) {
 
 /// Restitution and joints in turn, as in precise islands, for each island until its blow has gone
 /// through the mechanism.
-void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, const WideStep& step,
-                                double hs) {
+void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
   for (Part& part : parts_) part.struck = true;
+  if (books_.open) remember_before_blow();
   for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
     for (Part& part : parts_) part.change = 0;
     with_rest([&](const SolverIsland&) {
@@ -108,9 +110,9 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, const WideSt
         if (part.struck) part.change = apply_restitution(c, rest_of(part));
     });
     bounce_bundles(crew);
-    if (!read_blow_changes()) return;
+    if (!read_blow_changes()) break;
     remember([](const Part& part) { return part.change > 0 && !part.remembered; });
-    solve_struck_joints(crew, step, hs, JointPass::relaxing, 0);
+    solve_struck_joints(crew, hs, JointPass::relaxing, 0);
     for (Part& part : parts_) {
       if (!(part.change > 0)) continue;
       part.blown = true;
@@ -118,15 +120,16 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, const WideSt
     }
     settle_blows();
   }
+  if (books_.open) bound_blows();
 }
 
 /// As in solve_joints: where a limit that bounces may be met, how fast joints would be without it.
-void WideIsland::find_free_speeds(Crew& crew, const WideStep& step, double hs) {
+void WideIsland::find_free_speeds(Crew& crew, double hs) {
   if (drives_.empty()) return;
   const auto near = [](const Part& part) { return part.change > 0; };
   for (Part& part : parts_) part.change = nears_limit(rest_of(part)) ? 1 : 0;
   if (std::ranges::none_of(parts_, near)) return;
-  solve_struck_joints(crew, step, hs, JointPass::moving, 0);
+  solve_struck_joints(crew, hs, JointPass::moving, 0);
   remember(near);
   with_rest([&](const SolverIsland&) {
     for (const Part& part : parts_)
@@ -135,7 +138,7 @@ void WideIsland::find_free_speeds(Crew& crew, const WideStep& step, double hs) {
 }
 
 /// As in solve_joints: what limits give back, which was felt once, goes through whole mechanisms.
-void WideIsland::follow_limits(Crew& crew, const WideStep& step, double hs) {
+void WideIsland::follow_limits(Crew& crew, double hs) {
   if (drives_.empty()) return;
   for (Part& part : parts_) part.blown = limit_bounces(rest_of(part));
   for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
@@ -143,7 +146,7 @@ void WideIsland::follow_limits(Crew& crew, const WideStep& step, double hs) {
     if (std::ranges::none_of(
             parts_, [](const Part& part) { return part.change > tolerances::bounce_error; }))
       return;
-    solve_struck_joints(crew, step, hs, JointPass::relaxing, tolerances::bounce_error);
+    solve_struck_joints(crew, hs, JointPass::relaxing, tolerances::bounce_error);
   }
 }
 

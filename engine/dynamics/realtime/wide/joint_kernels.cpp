@@ -62,12 +62,10 @@ HWY_INLINE V moment(const WideHinge& h, size_t lane, F first, F second) {
   return first * load(h.turn[0], lane) + second * load(h.turn[1], lane);
 }
 
-HWY_INLINE void push_stored(Ends& ends, const WideJoint& j, const WideHinge* h, size_t lane,
-                            JointPass pass) {
-  const bool moving = pass == JointPass::moving;
-  const V P = load(moving ? j.moving : j.relaxing, lane);
+HWY_INLINE void push_stored(Ends& ends, WideJoint& j, WideHinge* h, size_t lane, JointPass pass) {
+  const V P = load(impulses(j, pass), lane);
   if (h) {
-    const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
+    const std::array<LaneFloats, 2>& twist = impulses(*h, pass);
     const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
     ends.push(P, &T);
   } else {
@@ -76,12 +74,17 @@ HWY_INLINE void push_stored(Ends& ends, const WideJoint& j, const WideHinge* h, 
 }
 
 HWY_INLINE void forget_stored(WideJoint& j, WideHinge* h, size_t lane, JointPass pass, M lost) {
-  const bool moving = pass == JointPass::moving;
   const auto forget = [&](LaneFloats& x)
                           HWY_ATTR { store(hn::IfThenZeroElse(lost, load(x, lane)), x, lane); };
-  for (LaneFloats& x : moving ? j.moving : j.relaxing) forget(x);
+  for (LaneFloats& x : impulses(j, pass)) forget(x);
   if (!h) return;
-  for (LaneFloats& x : moving ? h->moving : h->relaxing) forget(x);
+  for (LaneFloats& x : impulses(*h, pass)) forget(x);
+}
+
+HWY_INLINE void start_correcting(WideJoint& j, WideHinge* h, size_t lane) {
+  for (LaneFloats& x : j.correcting) store(all(0), x, lane);
+  if (!h) return;
+  for (LaneFloats& x : h->correcting) store(all(0), x, lane);
 }
 
 HWY_INLINE M turns_away(const V& w, const V& pushed, F most) {
@@ -96,6 +99,7 @@ void WarmStartJoints(WideRows& rows, WideRange range, const WideStep& step, Join
     WideJoint& j = rows.joints[i];
     WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
+      if (pass == JointPass::moving) start_correcting(j, h, lane);
       const Ends before(rows, j, lane);
       Ends ends = before;
       push_stored(ends, j, h, lane, pass);
@@ -133,10 +137,13 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
     WideJoint& j = rows.joints[i];
     const WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
-      const V P = load(moving ? j.moving : j.relaxing, lane);
+      const V P = moving ? load(j.moving, lane) + load(j.correcting, lane) : load(j.relaxing, lane);
       if (h) {
-        const std::array<LaneFloats, 2>& twist = moving ? h->moving : h->relaxing;
-        const V T = moment(*h, lane, load(twist[0], lane), load(twist[1], lane));
+        const auto twist = [&](size_t k) HWY_ATTR {
+          return moving ? load(h->moving[k], lane) + load(h->correcting[k], lane)
+                        : load(h->relaxing[k], lane);
+        };
+        const V T = moment(*h, lane, twist(0), twist(1));
         add_push(j, lane, P, &T);
       } else {
         add_push(j, lane, P, nullptr);
@@ -165,28 +172,24 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
 enum class Swept { all, struck };
 
 template <size_t n, JointPass pass, Swept swept>
-HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t lane,
-                            const WideSoftness& soft) {
-  constexpr bool moving = pass == JointPass::moving;
+HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t lane) {
   Ends ends(rows, j, lane);
   Column<n> c = velocities<n>(ends, h, lane);
-  if constexpr (moving) {
+  if constexpr (pass != JointPass::relaxing) {
     for (size_t k = 0; k < 3; ++k) c.x[k] = c.x[k] + load(j.target[k], lane);
     for (size_t k = 3; k < n; ++k) c.x[k] = c.x[k] + load(h->target[k - 3], lane);
   }
+  if constexpr (pass == JointPass::correcting) {
+    for (size_t k = 0; k < 3; ++k) c.x[k] = c.x[k] + load(j.correction[k], lane);
+    for (size_t k = 3; k < n; ++k) c.x[k] = c.x[k] + load(h->correction[k - 3], lane);
+  }
   solve_factored<n>(j, h, lane, c);
   for (size_t k = 0; k < n; ++k) {
-    LaneFloats& impulse = k < 3 ? (moving ? j.moving : j.relaxing)[k]
-                                : (moving ? h->moving : h->relaxing)[k < 3 ? 0 : k - 3];
-    const F old = load(impulse, lane);
-    if constexpr (moving) {
-      c.x[k] = all(-soft.mass_scale) * c.x[k] - all(soft.impulse_scale) * old;
-    } else {
-      c.x[k] = all(0) - c.x[k];
-    }
+    LaneFloats& impulse = k < 3 ? impulses(j, pass)[k] : impulses(*h, pass)[k < 3 ? 0 : k - 3];
+    c.x[k] = all(0) - c.x[k];
     if constexpr (swept == Swept::struck)
       c.x[k] = hn::IfThenElseZero(hn::Gt(load(j.struck, lane), all(0)), c.x[k]);
-    store(old + c.x[k], impulse, lane);
+    store(load(impulse, lane) + c.x[k], impulse, lane);
   }
   const V P{c.x[0], c.x[1], c.x[2]};
   if constexpr (n == 5) {
@@ -199,34 +202,37 @@ HWY_INLINE void solve_lanes(WideRows& rows, WideJoint& j, WideHinge* h, size_t l
 }
 
 template <JointPass pass, Swept swept>
-HWY_INLINE void sweep_joints(WideRows& rows, WideRange range, const WideSoftness& soft) {
+HWY_INLINE void sweep_joints(WideRows& rows, WideRange range) {
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
     if (swept == Swept::struck && !j.any_struck) continue;
     WideHinge* const h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       if (h) {
-        solve_lanes<5, pass, swept>(rows, j, h, lane, soft);
+        solve_lanes<5, pass, swept>(rows, j, h, lane);
       } else {
-        solve_lanes<3, pass, swept>(rows, j, nullptr, lane, soft);
+        solve_lanes<3, pass, swept>(rows, j, nullptr, lane);
       }
     }
   }
 }
 
-void SolveJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
+void SolveJoints(WideRows& rows, WideRange range, JointPass pass) {
   if (pass == JointPass::moving) {
-    sweep_joints<JointPass::moving, Swept::all>(rows, range, step.joint);
+    sweep_joints<JointPass::moving, Swept::all>(rows, range);
+  } else if (pass == JointPass::correcting) {
+    sweep_joints<JointPass::correcting, Swept::all>(rows, range);
   } else {
-    sweep_joints<JointPass::relaxing, Swept::all>(rows, range, step.joint);
+    sweep_joints<JointPass::relaxing, Swept::all>(rows, range);
   }
 }
 
-void SolveStruckJoints(WideRows& rows, WideRange range, const WideStep& step, JointPass pass) {
+/// Errors are worked off by sweeps over all.
+void SolveStruckJoints(WideRows& rows, WideRange range, JointPass pass) {
   if (pass == JointPass::moving) {
-    sweep_joints<JointPass::moving, Swept::struck>(rows, range, step.joint);
+    sweep_joints<JointPass::moving, Swept::struck>(rows, range);
   } else {
-    sweep_joints<JointPass::relaxing, Swept::struck>(rows, range, step.joint);
+    sweep_joints<JointPass::relaxing, Swept::struck>(rows, range);
   }
 }
 
@@ -264,12 +270,11 @@ void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& st
                             JointPass pass) {
   HWY_DYNAMIC_DISPATCH(WarmStartJoints)(rows, joints, step, pass);
 }
-void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass) {
-  HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, step, pass);
+void wide_solve_joints(WideRows& rows, WideRange joints, JointPass pass) {
+  HWY_DYNAMIC_DISPATCH(SolveJoints)(rows, joints, pass);
 }
-void wide_solve_struck_joints(WideRows& rows, WideRange joints, const WideStep& step,
-                              JointPass pass) {
-  HWY_DYNAMIC_DISPATCH(SolveStruckJoints)(rows, joints, step, pass);
+void wide_solve_struck_joints(WideRows& rows, WideRange joints, JointPass pass) {
+  HWY_DYNAMIC_DISPATCH(SolveStruckJoints)(rows, joints, pass);
 }
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass) {
   HWY_DYNAMIC_DISPATCH(SumJoints)(rows, joints, pass);

@@ -96,8 +96,8 @@ HWY_INLINE V bounded(const V& correction) {
   return {bounded(correction.x), bounded(correction.y), bounded(correction.z)};
 }
 
-/// Errors and arms. The target is what brings the end of the sub-step, C + hs J v + hs^2/2 (dJ/dt
-/// v), onto the joint.
+/// Errors and arms. Targets are what brings the end of the sub-step, C + hs J v + hs^2/2 (dJ/dt v),
+/// along the joint and onto it.
 HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const Placed& b,
                               const WideStep& step, F share) {
   const V at_a = load(j.at_a, lane), at_b = load(j.at_b, lane);
@@ -107,8 +107,8 @@ HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const 
   const V bias = cross(b.w, cross(b.w, rb)) - cross(a.w, cross(a.w, ra));
   store(ra, j.ra, lane);
   store(rb, j.rb, lane);
-  store(bounded(all(step.joint.bias_rate) * error) + all(0.5f * step.hs) * share * bias, j.target,
-        lane);
+  store(all(0.5f * step.hs) * share * bias, j.target, lane);
+  store(bounded(all(step.joint_rate) * error), j.correction, lane);
 }
 
 /// As dot_row in joint_algebra.cpp.
@@ -120,9 +120,8 @@ HWY_INLINE void refresh_hinge(WideHinge& h, size_t lane, const Placed& a, const 
     const V u = a.turn(load(k == 0 ? h.x_a : h.y_a, lane));
     const V turn_rate = cross(z_rate, u) + cross(z, cross(a.w, u));
     store(cross(z, u), h.turn[k], lane);
-    store(bounded(all(step.joint.bias_rate) * dot(u, z)) +
-              all(0.5f * step.hs) * share * dot(turn_rate, b.w - a.w),
-          h.target[k], lane);
+    store(all(0.5f * step.hs) * share * dot(turn_rate, b.w - a.w), h.target[k], lane);
+    store(bounded(all(step.joint_rate) * dot(u, z)), h.correction[k], lane);
   }
 }
 

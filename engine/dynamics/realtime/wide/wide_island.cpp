@@ -40,14 +40,14 @@ WideStep wide_step(const SolverContext& c, double hs) {
   const RealtimeSettings& s = *c.settings;
   const ContactSoftness soft = contact_softness(s, hs);
   return {float(hs),           float(s.push_out_speed), float(s.restitution_threshold),
-          narrowed(soft.soft), narrowed(soft.hard),     narrowed(joint_softness(hs))};
+          narrowed(soft.soft), narrowed(soft.hard),     float(joint_softness(hs).bias_rate)};
 }
 
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_, joints_, tolerances::ordinary_joint_sweeps,
-          drives_, {},       kick_};
+  return {bodies_, motions_, rest_rows_, rest_points_,   joints_, tolerances::ordinary_joint_sweeps,
+          drives_, {},       kick_,      joint_softness_};
 }
 
 SolverIsland WideIsland::rest_of(const Part& part) {
@@ -69,13 +69,15 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
   crew.gather([&] {
     const double hs = c.h / c.settings->substeps;
     kick_ = kick_time(hs);
+    joint_softness_ = {joint_softness(hs).bias_rate};
     const WideStep step = wide_step(c, hs);
     prepare(c, crew, step, hs);
+    open_blow_books();
     for (int i = 0; i < c.settings->substeps && !stop_requested(); ++i) {
       if (i > 0) end_substep(crew, hs);
       substep(c, crew, step, hs, i == 0);
     }
-    bounce(c, crew, step, hs);
+    bounce(c, crew, hs);
     end_substep(crew, hs);
     left = store(c, crew, hs);
   });
@@ -132,28 +134,30 @@ void WideIsland::sum_all_joints(Crew& crew, double hs, JointPass pass) {
   each_chunk(crew, all_joints(), [&](WideRange r) { wide_sum_joints(rows_, r, pass); });
 }
 
-/// Sweeps there and back, as solve_joints.
+/// As sweep_joints.
 template <class F>
-void WideIsland::sweep_bundled_joints(Crew& crew, const F& f) {
+void WideIsland::sweep_bundled_joints(Crew& crew, JointSweeps which, const F& f) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
-  for (int k = 0; k < tolerances::ordinary_joint_sweeps; ++k)
+  for (int k = which.begin; k < which.end; ++k)
     for (size_t i = 0; i < colours.size(); ++i)
       each_share(crew, colours[k % 2 == 0 ? i : colours.size() - 1 - i], f);
 }
 
-void WideIsland::solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass) {
-  sweep_bundled_joints(crew, [&](WideRange r) { wide_solve_joints(rows_, r, step, pass); });
+void WideIsland::solve_bundled_joints(Crew& crew, JointPass pass) {
+  sweep_bundled_joints(crew, sweeps_of(pass, tolerances::ordinary_joint_sweeps),
+                       [&](WideRange r) { wide_solve_joints(rows_, r, pass); });
 }
 
 /// Sweeps over all joints of the islands whose `change` is above `least`, and over no others.
-void WideIsland::solve_struck_joints(Crew& crew, const WideStep& step, double hs, JointPass pass,
-                                     double least) {
+void WideIsland::solve_struck_joints(Crew& crew, double hs, JointPass pass, double least) {
+  constexpr JointSweeps sweeps{0, tolerances::ordinary_joint_sweeps};
   each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r, least); });
   with_rest([&](const SolverIsland&) {
     for (const Part& part : parts_)
-      if (part.change > least) sweep_joints(rest_of(part), hs, joint_softness(hs), pass);
+      if (part.change > least) sweep_joints(rest_of(part), hs, pass, sweeps);
   });
-  sweep_bundled_joints(crew, [&](WideRange r) { wide_solve_struck_joints(rows_, r, step, pass); });
+  sweep_bundled_joints(crew, sweeps,
+                       [&](WideRange r) { wide_solve_struck_joints(rows_, r, pass); });
 }
 
 /// Forces over `h`, and the impulses of the sub-step before to start from.
@@ -172,6 +176,7 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
                          bool first) {
   const double push_out = c.settings->push_out_speed;
   const double before = kick_, after = hs - before;
+  if (books_.open) note_blow_speeds(0);
   // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
   // nothing else, the impulses of the sub-step before change the velocities as they did then.
   if (!first && sort_ == WideSort::plain) {
@@ -180,19 +185,25 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   } else {
     start(c, crew, step, before);
   }
-  find_free_speeds(crew, step, hs);
+  find_free_speeds(crew, hs);
+  const auto sweep_rest = [&](const SolverIsland& rest, JointPass pass) {
+    sweep_joints(rest, hs, pass, sweeps_of(pass, rest.joint_sweeps));
+  };
+  with_rest([&](const SolverIsland& rest) { sweep_rest(rest, JointPass::moving); });
+  solve_bundled_joints(crew, JointPass::moving);
   with_rest([&](const SolverIsland& rest) {
-    sweep_joints(rest, hs, joint_softness(hs), JointPass::moving);
+    sweep_rest(rest, JointPass::correcting);
     solve_rows(rest, hs, push_out, true);
   });
-  solve_bundled_joints(crew, step, JointPass::moving);
+  solve_bundled_joints(crew, JointPass::correcting);
   each_colour(crew, [&](WideRange r) { wide_solve(rows_, r, step); });
+  if (books_.open) add_taken(JointPass::moving);
   each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_move(rows_, r, step.hs); });
   if (after > 0) kick(crew, after);
   sum_all_joints(crew, hs, JointPass::moving);
   const auto relax_rest = [&](const SolverIsland& rest) {
-    sweep_joints(rest, hs, joint_softness(hs), JointPass::relaxing);
+    sweep_rest(rest, JointPass::relaxing);
     solve_rows(rest, hs, push_out, false);
     sum_impulses(rest);
   };
@@ -203,25 +214,27 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     if (after > 0) integrate_velocities(c, special(), after);
     refresh_spinning_rows(c, rest);
     refresh_joints(c, rest, hs);
-    warm_start_joints(rest, hs, JointPass::relaxing);
     if (!has_joints()) relax_rest(rest);
   });
   if (has_joints()) {
     each_chunk(crew, all_joints(), [&](WideRange r) { wide_refresh_joints(rows_, r, step); });
+    if (books_.open) note_blow_speeds(1);
+    with_rest([&](const SolverIsland& rest) { warm_start_joints(rest, hs, JointPass::relaxing); });
     warm_start_bundled_joints(crew, step, JointPass::relaxing);
     with_rest(relax_rest);
-    solve_bundled_joints(crew, step, JointPass::relaxing);
-    follow_limits(crew, step, hs);
+    solve_bundled_joints(crew, JointPass::relaxing);
+    follow_limits(crew, hs);
   }
   each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
+  if (books_.open) add_taken(JointPass::relaxing);
 }
 
-void WideIsland::bounce(const SolverContext& c, Crew& crew, const WideStep& step, double hs) {
+void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
   if (std::ranges::any_of(rows_.contacts, &WideContact::bounces)) {
     rows_.rebounds.assign(rows_.points.size(), {});
     rows_.blow_changes.assign(rows_.contacts.size(), {});
   }
-  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, step, hs);
+  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, hs);
   with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
   bounce_bundles(crew);
 }

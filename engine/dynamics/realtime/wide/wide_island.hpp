@@ -13,13 +13,6 @@
 namespace tumble {
 
 class Crew;
-
-/// What the last sub-step left.
-struct SolveResiduals {
-  double contacts = 0;  ///< greatest approach speed at a pressed point [m/s]
-  double joints = 0;    ///< greatest velocity left in a row of a joint [m/s, rad/s]
-};
-
 /// Ordinary islands of one sort, solved together in bundles of contacts by colour. What the
 /// bundles cannot do, the rest, is solved by the scalar rows within the same sweeps: other
 /// joints, contacts of bodies that spin fast or are slender, and those that found no colour. No
@@ -59,6 +52,26 @@ class WideIsland {
     bool struck = false;      ///< its bounces have another turn
     bool remembered = false;  ///< impulses of its joints are, in this sub-step
     bool blown = false;       ///< then there was a blow
+    bool bounces = false;     ///< contacts of it do in this tick
+    double taken = 0;         ///< of its energy, see blow_energy [J]
+    double share = 1;         ///< of the blow that it bears
+  };
+  /// What the energy of blows is told by, of islands with joints in which contacts bounce: bundled
+  /// points that do, as PointRow has it, and all bundled joints of these, as JointBlock has it.
+  struct BlowBooks {
+    struct Point {
+      uint32_t contact, point, lane, part;
+      double speed = 0, normal = 0;
+    };
+    struct Joint {
+      uint32_t joint, lane, part;
+      std::array<double, 5> speeds{};
+      std::array<float, 5> relaxing{};
+    };
+    std::vector<Point> points;
+    std::vector<Joint> joints;
+    std::vector<WideBody> bodies;  ///< before the blow
+    bool open = false;             ///< some part bounces
   };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
@@ -83,13 +96,22 @@ class WideIsland {
   void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
                bool first);
   void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
-  void find_free_speeds(Crew& crew, const WideStep& step, double hs);
-  void follow_limits(Crew& crew, const WideStep& step, double hs);
-  void solve_struck_joints(Crew& crew, const WideStep& step, double hs, JointPass pass,
-                           double least);
-  void bounce(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
-  void bounce_in_turn(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
+  void find_free_speeds(Crew& crew, double hs);
+  void follow_limits(Crew& crew, double hs);
+  void solve_struck_joints(Crew& crew, double hs, JointPass pass, double least);
+  void bounce(const SolverContext& context, Crew& crew, double hs);
+  void bounce_in_turn(const SolverContext& context, Crew& crew, double hs);
   void bounce_bundles(Crew& crew);
+  void open_blow_books();
+  void note_blow_speeds(double share);
+  void add_taken(JointPass pass);
+  void remember_before_blow();
+  void bound_blows();
+  void scale_blows();
+  double normal_speed(const BlowBooks::Point& p) const;
+  std::array<double, 5> row_speeds(const BlowBooks::Joint& j) const;
+  size_t rows_of(const BlowBooks::Joint& j) const;
+  float& row_impulse(const BlowBooks::Joint& j, size_t row, JointPass pass);
   bool read_blow_changes();
   void settle_blows();
   void mark_struck(WideRange joints, double least);
@@ -112,11 +134,11 @@ class WideIsland {
     write_velocities();
   }
   template <class F>
-  void sweep_bundled_joints(Crew& crew, const F& f);
+  void sweep_bundled_joints(Crew& crew, JointSweeps which, const F& f);
   void kick(Crew& crew, double h);
   void warm_start_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
   void sum_all_joints(Crew& crew, double hs, JointPass pass);
-  void solve_bundled_joints(Crew& crew, const WideStep& step, JointPass pass);
+  void solve_bundled_joints(Crew& crew, JointPass pass);
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
 
@@ -164,8 +186,9 @@ class WideIsland {
   uint32_t bundled_points_ = 0, turning_bundles_ = 0;
   size_t points_ = 0;
 
-  std::vector<Part> parts_;            ///< by island, where these have joints
-  std::vector<uint32_t> islands_;      ///< by body: its part; none of what is not in an island
+  std::vector<Part> parts_;        ///< by island, where these have joints
+  std::vector<uint32_t> islands_;  ///< by body: its part; none of what is not in an island
+  BlowBooks books_;
   std::vector<uint32_t> rest_of_;      ///< by body: its place in the rest
   std::vector<uint32_t> rest_bodies_;  ///< by place
   uint32_t special_ = 0;               ///< those come first
@@ -176,6 +199,7 @@ class WideIsland {
   std::vector<JointBlock> joints_;
   std::vector<DriveRow> drives_;
   double kick_ = 0;  ///< how long forces act in a sub-step before joints do [s]
+  Softness joint_softness_;
   std::vector<float> residuals_, joint_residuals_;  ///< by chunk
 };
 

@@ -33,12 +33,11 @@ void wide_prepare_joints(WideRows& rows, WideRange joints, const WideStep& step)
 void wide_refresh_joints(WideRows& rows, WideRange joints, const WideStep& step);
 void wide_warm_start_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
 /// One sweep; all rows of a joint at once.
-void wide_solve_joints(WideRows& rows, WideRange joints, const WideStep& step, JointPass pass);
-/// One sweep of the relaxing pass over those that are struck. Its impulses go to the sums at once
-/// The same of those that are struck.
-void wide_solve_struck_joints(WideRows& rows, WideRange joints, const WideStep& step,
-                              JointPass pass);
-/// Adds the impulses of a pass to the sums; before the arms change.
+void wide_solve_joints(WideRows& rows, WideRange joints, JointPass pass);
+/// The same of those that are struck, in any pass but the correcting one.
+void wide_solve_struck_joints(WideRows& rows, WideRange joints, JointPass pass);
+/// Adds the impulses before the bodies moved (`moving`), or after that, to the sums; before the
+/// arms change.
 void wide_sum_joints(WideRows& rows, WideRange joints, JointPass pass);
 /// Greatest velocity left in a row [m/s, rad/s].
 float wide_joint_residual(WideRows& rows, WideRange joints);

@@ -1,4 +1,6 @@
 #pragma once
+#include "engine/dynamics/realtime/joint_pass.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -94,19 +96,20 @@ struct WideJoint {
   static constexpr uint32_t no_hinge = ~uint32_t{0};
   alignas(64) std::array<uint32_t, wide_lanes> a{}, b{};  ///< bodies
   std::array<uint32_t, wide_lanes> source{};              ///< index into the joints
-  LaneVec at_a, at_b;  ///< arms at the start of the tick, world axes; 0 of fixed bodies [m]
-  LaneVec apart;       ///< from A's anchor to B's at the start [m]
-  LaneVec ra, rb;      ///< arms now [m]
-  LaneVec target;      ///< velocity that the moving pass takes away besides that of now [m/s]
-  LaneFloats mass_a, mass_b;            ///< inverse [1/kg]
+  LaneVec at_a, at_b;         ///< arms at the start of the tick, world axes; 0 of fixed bodies [m]
+  LaneVec apart;              ///< from A's anchor to B's at the start [m]
+  LaneVec ra, rb;             ///< arms now [m]
+  LaneVec target;             ///< velocity to lose besides that of now before the bodies move [m/s]
+  LaneVec correction;         ///< and what the correcting pass takes off errors [m/s]
+  LaneFloats mass_a, mass_b;  ///< inverse [1/kg]
   LaneSym inertia_a, inertia_b;         ///< inverse, world axes, now
   std::array<LaneFloats, 6> factor;     ///< lower triangle of JointBlock::factor by rows, the first
   LaneVec impulse, moment_a, moment_b;  ///< JointPush of the sub-steps so far
-  LaneVec moving, relaxing;             ///< as in JointBlock [N s]
-  uint32_t hinge = no_hinge;            ///< its WideHinge
-  uint32_t lanes = 0;                   ///< joints in it, the first lanes
-  uint16_t writes_a = 0, writes_b = 0;  ///< bit k: body of lane k is dynamic
-  LaneFloats uneven;                    ///< above 0 where moments of inertia of a body of it differ
+  LaneVec moving, correcting, relaxing;  ///< as in JointBlock [N s]
+  uint32_t hinge = no_hinge;             ///< its WideHinge
+  uint32_t lanes = 0;                    ///< joints in it, the first lanes
+  uint16_t writes_a = 0, writes_b = 0;   ///< bit k: body of lane k is dynamic
+  LaneFloats uneven;  ///< above 0 where moments of inertia of a body of it differ
   bool any_uneven = false;
   bool any_struck = false;
   LaneFloats struck;  ///< above 0 where a blow goes through the joint's island, while it does
@@ -114,12 +117,22 @@ struct WideJoint {
 
 /// What hinges have besides: the axis of B stays at right angles to two axes of A.
 struct WideHinge {
-  LaneVec x_a, y_a, z_b;                       ///< those axes at the start of the tick, world axes
-  std::array<LaneVec, 2> turn;                 ///< Jacobian now: on B; minus it on A
-  std::array<LaneFloats, 2> target;            ///< as of the joint [rad/s]
-  std::array<LaneFloats, 9> factor;            ///< the last two rows
-  std::array<LaneFloats, 2> moving, relaxing;  ///< [N m s]
+  LaneVec x_a, y_a, z_b;        ///< those axes at the start of the tick, world axes
+  std::array<LaneVec, 2> turn;  ///< Jacobian now: on B; minus it on A
+  std::array<LaneFloats, 2> target, correction;            ///< as of the joint [rad/s]
+  std::array<LaneFloats, 9> factor;                        ///< the last two rows
+  std::array<LaneFloats, 2> moving, correcting, relaxing;  ///< [N m s]
 };
+
+/// The impulses of a pass.
+inline LaneVec& impulses(WideJoint& j, JointPass pass) {
+  if (pass == JointPass::relaxing) return j.relaxing;
+  return pass == JointPass::moving ? j.moving : j.correcting;
+}
+inline std::array<LaneFloats, 2>& impulses(WideHinge& h, JointPass pass) {
+  if (pass == JointPass::relaxing) return h.relaxing;
+  return pass == JointPass::moving ? h.moving : h.correcting;
+}
 
 /// Impulses of a WideJoint and its WideHinge before a blow.
 struct WideRemembered {
@@ -136,7 +149,7 @@ struct WideStep {
   float push_out_speed = 0;
   float restitution_threshold = 0;
   WideSoftness soft, hard;
-  WideSoftness joint;  ///< of the moving pass
+  float joint_rate = 0;  ///< what the correcting pass takes off errors [1/s]
 };
 
 /// What the kernels work on; the wide island owns it.

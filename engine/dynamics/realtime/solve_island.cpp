@@ -1,0 +1,92 @@
+#include "engine/dynamics/realtime/solve_island.hpp"
+
+#include "engine/core/stop.hpp"
+#include "engine/dynamics/realtime/blows.hpp"
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/solve_joints.hpp"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+/// Restitution and joints in turn: the blow goes through the whole mechanism, and gives back no
+/// more than contacts took. Whether there was one.
+bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
+  if (island.joints.empty()) return apply_restitution(c, island) > 0;
+  note_speeds(island, 1);
+  note_joint_speeds(island);
+  remember_velocities(island);
+  remember_relaxing(island);
+  for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn) {
+    const double change = apply_restitution(c, island);
+    if (turn == 0) {
+      if (change == 0) return false;
+      if (!limit_bounces(island)) remember_impulses(island);
+    }
+    sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
+    if (std::max(change, blow_change(island)) < tolerances::bounce_error) break;
+  }
+  const double share = blow_energy(island).bearable_share(taken);
+  if (share < 1) {
+    scale_velocities(island, share);
+    scale_impulses(island, share);
+  }
+  return true;
+}
+
+/// After the relaxing pass.
+void end_substep(const SolverIsland& island, double hs, bool bounced) {
+  sum_joints(island, hs, JointPass::relaxing);
+  if (bounced || limit_bounces(island)) recall_impulses(island);
+}
+
+}  // namespace
+
+SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n) {
+  const double hs = c.h / n;
+  const double push_out = c.settings->push_out_speed;
+  // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
+  // of second order. Contacts need the whole kick before them, or they would let go in between.
+  const double kick = island.kick = island.rows.empty() ? 0.5 * hs : hs;
+  island.joint_softness = joint_softness(hs);
+  prepare_rows(c, island, hs);
+  prepare_joints(c, island, hs);
+  const bool measured = !island.joints.empty() && bounces(island);
+  double taken = 0;
+  const auto note_pass = [&](double share) {
+    note_speeds(island, share);
+    note_joint_speeds(island);
+  };
+  const auto add_taken = [&](JointPass pass) {
+    taken += taken_by_contacts(island) + taken_by_joints(island, pass);
+  };
+  for (int i = 0; i < n && !stop_requested(); ++i) {
+    if (i > 0) end_substep(island, hs, false);
+    if (measured) note_pass(0);
+    integrate_velocities(c, island, kick);
+    warm_start(island);
+    warm_start_joints(island, hs, JointPass::moving);
+    move_onto_joints(island, hs);
+    solve_rows(island, hs, push_out, true);
+    if (measured) add_taken(JointPass::moving);
+    integrate_positions(c, island, hs);
+    if (kick < hs) integrate_velocities(c, island, hs - kick);
+    refresh_spinning_rows(c, island);
+    sum_joints(island, hs, JointPass::moving);
+    refresh_joints(c, island, hs);
+    if (measured) note_pass(1);
+    warm_start_joints(island, hs, JointPass::relaxing);
+    relax_joints(island, hs);
+    if (!island.joints.empty()) solve_normals(island, hs, push_out);
+    solve_rows(island, hs, push_out, false);
+    if (island.joints.empty()) solve_friction_again(island);
+    if (measured) add_taken(JointPass::relaxing);
+    sum_impulses(island);
+  }
+  end_substep(island, hs, bounce(c, island, hs, taken));
+  const double contacts = store_rows(c, island, hs);
+  return {contacts, store_joints(c, island, hs)};
+}
+
+}  // namespace tumble
