@@ -250,9 +250,10 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   layers.smoke_last = layers.ground_under && !marks;
   const std::vector<ScissorRect> whole = {{0, 0, width, height}};
   CanvasParts parts;
-  parts.solid = scene.fluids.empty() ? drawn_parts(scene, setup.view) : whole;
-  parts.drawn = marks ? whole : parts.solid;
-  parts.below_ground = marks ? whole : sunken_parts(scene, setup.view);
+  parts.drawn = marks || !scene.fluids.empty() ? whole : drawn_parts(scene, setup.view);
+  // The shade of smoke falls on the ground too, at its depth.
+  parts.solid = soft ? whole : parts.drawn;
+  parts.below_ground = marks || soft ? whole : sunken_parts(scene, setup.view);
   draw_canvas(scene, setup, parts, layers);
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);
