@@ -227,7 +227,7 @@ TEST_CASE("a kinematic crank drives what is coupled to its joint, awake or aslee
     const BodyId driven = m.add(wheel({1, 1, 0}, 1, 0.1));
     const JointId input = m.hinge(crank);
     const JointId output = m.hinge(driven, CoordinateCouple{input, 0, 0.5, 0.25});
-    m.run(2);  // closes the offset, then rests
+    m.run(6);  // closes the offset, under `event` at its recovery_speed, then rests
     CHECK(m.of(output).value == doctest::Approx(0.25).epsilon(1e-6));
     REQUIRE(m->set_velocity(crank, Vec3::Zero(), {0, 0, 4}).ok());
     m.run(5);
