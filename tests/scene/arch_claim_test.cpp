@@ -134,33 +134,32 @@ TEST_CASE("arch under the exact stepper: thrust and weight in every joint are th
   for (const BodyBalance& b : found->bodies) CHECK(b.residual < 1e-8);
 }
 
-TEST_CASE(
-    "arch under the exact stepper: struck, its stones rattle for a bounded number of events") {
-  // What rattles slowly comes to rest, or a tick would not end for collisions. References:
-  // nothing gives energy, nothing comes in deeper than the stepper's tolerance, and the lines of
-  // the ledger account for energy and momenta: what is left is the integrator's error.
+TEST_CASE("arch under the exact stepper: struck, its stones rattle, and each tick still ends") {
+  // A hit at one joint opens others by nanometres, thousands of times in a tick. What is beyond the
+  // budget is time-stepped. References: nothing gives energy, nothing comes in deeper than a
+  // millimetre, and the lines of the ledger account for energy and momenta: what is left is the
+  // error of the integrators, which in time-stepped ticks turn bodies with first order.
   BuiltScene s =
-      shipped("arch", {"settings.stepper=event", "settings.event.budget=1000000",
-                       "bodies.ball.position=[0.45,3.37,0.05]", "bodies.ball.velocity=[0,-4.9,0]"});
-  REQUIRE(s.world->step().ok());  // the blow is in this tick
-  uint64_t events = s.world->frame()->stats.events;
+      shipped("arch", {"settings.stepper=event", "bodies.ball.position=[0.45,3.37,0.05]",
+                       "bodies.ball.velocity=[0,-4.9,0]"});
+  const double turned = body(s, copy("ball", 0)).mass * 4.9 * 0.45;  // by the blow, about z [kg m^2/s]
   double energy = s.world->frame()->stats.energies.total();
-  for (int tick = 1; tick < 6; ++tick) {
-    REQUIRE(s.world->step().ok());
+  uint64_t time_stepped = 0;
+  for (int tick = 0; tick < 30; ++tick) {
+    REQUIRE(s.world->step().ok());  // the blow is in the first
     const auto frame = s.world->frame();
     CHECK(frame->stats.energies.total() < energy + 1e-6);
-    CHECK(s.world->overlaps(1e-5).empty());
+    CHECK(s.world->overlaps(1e-3).empty());
     energy = frame->stats.energies.total();
-    events += frame->stats.events;
+    time_stepped += frame->stats.time_stepped;
   }
+  CHECK(time_stepped > 0);
   const Ledger& books = *s.world->frame()->ledger;
   const LedgerEntry left = books.line(LedgerLine::integrator).total();
   CHECK(books.line(LedgerLine::restitution).total().balance < -30);
   CHECK(books.line(LedgerLine::friction).total().balance < -30);
-  CHECK(books.drift() < 1e-6);
+  CAPTURE(turned);
+  CHECK(books.drift() < 1e-4);
   CHECK(left.momentum.norm() < 1e-6);
-  CHECK(left.angular_momentum.norm() < 1e-6);
-  CAPTURE(events);
-  CHECK(events > 10);
-  CHECK(events < 200);
+  CHECK(left.angular_momentum.norm() < 1e-3 * turned);
 }
