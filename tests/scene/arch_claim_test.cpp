@@ -139,10 +139,10 @@ TEST_CASE("arch under the exact stepper: struck, its stones rattle, and each tic
   // budget is time-stepped. References: nothing gives energy, nothing comes in deeper than a
   // millimetre, and the lines of the ledger account for energy and momenta: what is left is the
   // error of the integrators, which in time-stepped ticks turn bodies with first order.
-  BuiltScene s =
-      shipped("arch", {"settings.stepper=event", "bodies.ball.position=[0.45,3.37,0.05]",
-                       "bodies.ball.velocity=[0,-4.9,0]"});
-  const double turned = body(s, copy("ball", 0)).mass * 4.9 * 0.45;  // by the blow, about z [kg m^2/s]
+  BuiltScene s = shipped("arch", {"settings.stepper=event", "bodies.ball.position=[0.45,3.37,0.05]",
+                                  "bodies.ball.velocity=[0,-4.9,0]"});
+  const double turned =
+      body(s, copy("ball", 0)).mass * 4.9 * 0.45;  // by the blow, about z [kg m^2/s]
   double energy = s.world->frame()->stats.energies.total();
   uint64_t time_stepped = 0;
   for (int tick = 0; tick < 30; ++tick) {
