@@ -8,7 +8,6 @@ flat in vec3 lit, shaded;
 flat in vec3 sun_in_puff;
 flat in float scale;  // pixels of the picture that one of these stands for
 flat in vec4 v_look;  // opacity, radius [m], near, far [m]
-flat in vec3 v_ground;  // its closeness (soft.glsl)
 in float z;
 out vec4 picture_out;
 
@@ -19,9 +18,7 @@ void main() {
   // It has a thickness: less of it is seen the less of that is in front of what is solid.
   ivec2 pixel = min(ivec2(scale * gl_FragCoord.xy), textureSize(scene_depth, 0) - 1);
   float depth = texelFetch(scene_depth, pixel, 0).r;
-  float closeness = max(far - depth * (far - near),
-                        v_ground.x + dot(v_ground.yz, vec2(pixel) + 0.5));
-  float wall = near * far / closeness;  // [m]
+  float wall = near * far / (far - depth * (far - near));  // [m]
   float thick = radius * sqrt(inside) + 1e-5;
   float seen = clamp((wall - z + thick) / (2.0 * thick), 0.0, 1.0);
   // Nor does it slap into the eye.

@@ -13,7 +13,6 @@ flat out vec3 lit, shaded;  // picture colours towards the sun and away from it
 flat out vec3 sun_in_puff;  // direction in the axes of the puff's picture
 flat out float scale;
 flat out vec4 v_look;  // opacity, radius [m], near, far [m]
-flat out vec3 v_ground;
 out float z;
 
 void main() {
@@ -34,7 +33,6 @@ void main() {
   shaded = with_haze(picture_colour(colour.rgb * (0.75 * sky + 0.12 * sun * sun_colour.rgb) + own), d);
   scale = depths.w;
   v_look = vec4(colour.a, place.w, depths.xy);
-  v_ground = ground_closeness.xyz;
   z = dot(world - eye.xyz, view_forward.xyz);
   gl_Position = clip_from_world * vec4(world, 1.0);
 }

@@ -5,14 +5,12 @@
 uniform sampler2D smoke;
 uniform sampler2D scene_depth;
 flat in vec3 v_depths;
-flat in vec3 v_ground;  // its closeness (soft.glsl)
 out vec4 picture_out;
 
 // near * far / distance of what is solid.
 float closeness(ivec2 pixel) {
   float depth = texelFetch(scene_depth, pixel, 0).r;
-  return max(v_depths.y - depth * (v_depths.y - v_depths.x),
-             v_ground.x + dot(v_ground.yz, vec2(pixel) + 0.5));
+  return v_depths.y - depth * (v_depths.y - v_depths.x);
 }
 
 // What counts of a texel with this bilinear share.

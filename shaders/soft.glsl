@@ -7,7 +7,6 @@ layout(std140) uniform Soft {
   vec4 body;             // colour of the liquid, linear; most foam
   vec4 smoothing;        // reach [m], narrow range [m], step behind it [m], most pixels
   vec4 ball;             // radius [m]
-  vec4 ground_closeness; // near * far / distance of the ground: at pixel 0, by pixel across and up
 };
 
 // Distance along the line of sight of the picture's middle [m].

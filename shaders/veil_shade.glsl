@@ -8,20 +8,18 @@ uniform sampler2D sun_veil;
 in vec3 ray, ray_in_veil, ray_in_shadow;
 flat in vec4 eye_in_veil, eye_in_shadow;
 flat in vec4 step_x, step_y, step_z;  // step_z.w: pixels of the picture that one of these stands for
-flat in vec3 v_ground;  // its closeness (soft.glsl)
 out vec4 picture_out;
 
 void main() {
   ivec2 pixel = min(ivec2(step_z.w * gl_FragCoord.xy), textureSize(scene_depth, 0) - 1);
   float depth = texelFetch(scene_depth, pixel, 0).r;
   float near = step_x.w, far = step_y.w;
-  float ground = v_ground.x + dot(v_ground.yz, vec2(pixel) + 0.5);
-  float z = near * far / max(far - depth * (far - near), ground);
+  float z = near * far / (far - depth * (far - near));
   vec3 at = z * ray;  // from the eye
   vec3 across = cross(dFdx(at), dFdy(at));
   vec3 in_veil = eye_in_veil.xyz + z * ray_in_veil;
   vec2 rim = abs(in_veil.xy - 0.5);
-  if ((depth >= 1.0 && ground <= near) || max(rim.x, rim.y) > 0.5) discard;
+  if (depth >= 1.0 || max(rim.x, rim.y) > 0.5) discard;
   vec4 left = texture(sun_veil, in_veil.xy);
   float behind = clamp((in_veil.z - left.a) * eye_in_veil.w, 0.0, 1.0);
   float size = length(across);

@@ -10,7 +10,6 @@ out vec3 ray_in_veil, ray_in_shadow;
 flat out vec4 eye_in_veil;        // a: 1 / softness of the veil's front
 flat out vec4 eye_in_shadow;
 flat out vec4 step_x, step_y, step_z;  // in the shadow map, along the normal; near, far, scale
-flat out vec3 v_ground;
 void main() {
   vec2 s = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2)) * 2.0 - 1.0;
   ray = view_forward.xyz + s.x * view_right.xyz + s.y * view_up.xyz;
@@ -22,7 +21,6 @@ void main() {
   step_x = vec4(turn[0], depths.x);
   step_y = vec4(turn[1], depths.y);
   step_z = vec4(turn[2], veil.y);
-  v_ground = ground_closeness.xyz;
   hand_light();
   gl_Position = vec4(s, 1.0, 1.0);
 }

@@ -60,10 +60,8 @@ struct GpuSoft {
   std::array<float, 4> body;    ///< colour, most foam
   std::array<float, 4> smooth;  ///< reach, narrow range, step behind it [m], most texels
   std::array<float, 4> ball;    ///< radius [m], unused
-  /// near * far / distance of the ground: at pixel 0, by pixel across and up; 0: it is not seen
-  std::array<float, 4> ground;
 };
-static_assert(sizeof(GpuSoft) == 64 + 7 * 16);
+static_assert(sizeof(GpuSoft) == 64 + 6 * 16);
 
 /// The uniform block Frame of shaders/common.glsl (std140).
 struct GpuFrame {

@@ -34,19 +34,6 @@ std::array<float, 16> floats_of(const Mat4& m) {
   return out;
 }
 
-/// By how much closer the ground is than the far plane, near * far / distance: linear over the
-/// picture, as it is of any plane.
-std::array<float, 4> closeness_of_ground(const RenderScene& scene, const FrameSetup& setup) {
-  const double above = setup.view.eye.y() - double(scene.ground.height);
-  if (!scene.ground.visible || !(above > 0)) return {};
-  const GpuFrame& u = setup.uniforms;
-  const double by = -setup.camera.near * setup.camera.far / above;
-  const double ahead = double(u.view_forward[1]), across = double(u.view_right[1]),
-               up = double(u.view_up[1]);
-  return {float(by * (ahead - across - up)), float(by * 2 * across / setup.view.width),
-          float(by * 2 * up / setup.view.height), 0};
-}
-
 /// The texels that touch a part of a picture, in one of fewer that stand for `scale` pixels each.
 ScissorRect reduced(const ScissorRect& part, int height, int scale) {
   const auto up = [scale](int pixels) { return (pixels + scale - 1) / scale; };
@@ -166,7 +153,6 @@ void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, T
                             std::span<const ScissorRect> solid, const DrawCall& base) {
   device_.resolve_depth(canvas, behind_, solid);
   soft_ = {};
-  soft_.ground = closeness_of_ground(scene, setup);
   soft_.depths = {float(setup.camera.near), float(setup.camera.far),
                   float(setup.view.pixels_per_radian), float(smoke_scale_)};
   cast_shade(scene, setup, canvas, base);
