@@ -4,7 +4,7 @@
 #include "shading.glsl"
 #include "soft.glsl"
 uniform sampler2D front;      // smooth distance of the surface; 0: no liquid
-uniform sampler2D thickness;  // of the liquid, and of foam, half size
+uniform sampler2D thickness;  // of the liquid, of foam, and as if nothing were in it, half size
 uniform sampler2D scene;
 uniform sampler2D scene_depth;
 in vec2 uv;
@@ -22,6 +22,26 @@ vec3 slope(vec3 p, ivec2 at, ivec2 step, float z) {
   bool forward = before <= 0.0 || (after > 0.0 && abs(after - z) < abs(z - before));
   if (forward && after <= 0.0) return point_at((vec2(at + step) + 0.5) / picture.xy * 2.0 - 1.0, z) - p;
   return forward ? surface_at(at + step, after) - p : p - surface_at(at - step, before);
+}
+
+// Where on the picture a ray through the liquid ends, and how long it is: after `most`, or at the first
+// of some places along it that lie just behind what is solid there. What stands before the liquid hides
+// nothing of it, and a place deep behind a body is one that the ray came to from the side.
+const int looks = 14, halvings = 4;
+vec3 end_of_ray(vec3 p, vec3 along, float most, float z) {
+  vec4 start = clip_from_world * vec4(p, 1.0), way = clip_from_world * vec4(along, 0.0) * most;
+  float t = 0.0, step = 1.0 / float(looks), end = 1.0, deepest = 1.5 * step * abs(way.w);
+  for (int i = 0; i < looks + halvings && t < 1.0; ++i) {
+    vec4 c = start + (t + step) * way;
+    float solid = distance_of(texture(scene_depth, c.xy / c.w * 0.5 + 0.5).r);
+    float over = c.w - solid;  // w is the distance
+    bool behind = over > 0.0 && over < deepest && solid > z;
+    if (behind) end = t + step;
+    if (!behind) t += step;
+    if (behind || step * float(looks) < 1.0) step *= 0.5;
+  }
+  vec4 c = start + end * way;
+  return vec3(clamp(c.xy / c.w * 0.5 + 0.5, 0.0, 1.0), end * most);
 }
 
 // As seen along a direction, in linear light of the picture; what is below is the ground's.
@@ -43,17 +63,16 @@ void main() {
   vec3 v = to_eye / distance_to_eye;
   if (dot(n, v) < 0.0) n = -n;
   float ndv = max(dot(n, v), 0.0);
-  vec2 some = texture(thickness, uv).rg;
+  vec3 some = texture(thickness, uv).rgb;
   float thick = max(some.r, 0.0);
 
   // What is behind, where the bent ray comes to.
-  vec3 bent = refract(-v, n, 1.0 / index);
-  vec4 clip = clip_from_world * vec4(p + bent * min(thick, wall - z), 1.0);
-  vec2 there = clamp(clip.xy / clip.w * 0.5 + 0.5, 0.0, 1.0);
+  vec3 end = end_of_ray(p, refract(-v, n, 1.0 / index), some.b, z);
+  vec2 there = end.xy;
   if (distance_of(texture(scene_depth, there).r) < z) there = uv;
   vec3 straight = linear_from_srgb(texelFetch(scene, at, 0).rgb);
   vec3 background = linear_from_srgb(texture(scene, there).rgb);
-  vec3 through = exp(-absorb.rgb * thick);
+  vec3 through = exp(-absorb.rgb * end.z);
   float sun = sun_visibility_cheap(in_shadow_map(p, n));
   vec3 glow = body.rgb * (sky_light(0.6) + 0.35 * sun * sun_colour.rgb) * (0.55 * picture.w);
   vec3 inside = mix(glow, background, through);

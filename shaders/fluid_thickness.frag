@@ -1,5 +1,6 @@
 #version 330 core
-// How much liquid there is behind a pixel before what is solid, and how much foam at its front.
+// How much liquid there is behind a pixel before what is solid, how much foam at its front, and how
+// much liquid as if nothing solid were there.
 // Drawn at half the picture's size, and summed.
 #include "common.glsl"
 #include "soft.glsl"
@@ -23,5 +24,6 @@ void main() {
   float chord = clamp(wall - middle + half_chord, 0.0, 2.0 * half_chord);
   float behind = max(middle - texelFetch(front, at, 0).r, 0.0);
   float some = chord * absorb.w;
-  picture_out = vec4(some, v_foam * some * exp(-behind / (2.0 * v_sphere.w)), 0.0, 0.0);
+  picture_out = vec4(some, v_foam * some * exp(-behind / (2.0 * v_sphere.w)),
+                     2.0 * half_chord * absorb.w, 0.0);
 }

@@ -8,8 +8,15 @@ struct Place {
   vec3 on_ground;  // in the contact map, and its lowness
 };
 
-// Picture colour of a point with unit normal n; look: roughness, metallic, emission.
-vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
+// Radiance of a point: what its matter sends back, and what it mirrors.
+struct Reflected {
+  vec3 matter, sparkle, sky;  // of the sky as if all of it came back
+  vec3 mirrors;               // share of the sky that does
+  float distance;             // from the eye [m]
+};
+
+// Of a point with unit normal n; look: roughness, metallic, emission.
+Reflected light_of(Place place, vec3 n, vec3 base, vec3 look) {
   float d2 = dot(place.to_eye, place.to_eye);
   float inv_d = inversesqrt(d2);
   vec3 v = place.to_eye * inv_d;
@@ -44,7 +51,24 @@ vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
   float glow = max(2.0 * nv * nl - lv, 0.0);
   vec3 mirrored = sky_light(2.0 * nv * n.y - v.y) * (1.0 + look.y) + (0.5 * look.y * glow * glow) * sun_colour.rgb;
   vec3 diffuse = base * (1.0 - look.y);
-  vec3 radiance = (diffuse + specular) * lit * sun_colour.rgb +
-                  (diffuse * sky_light(n.y) + rim * mirrored) * shade + base * look.z;
-  return with_haze(picture_colour(radiance), d2 * inv_d);
+  return Reflected(diffuse * (lit * sun_colour.rgb + shade * sky_light(n.y)) + base * look.z,
+               specular * lit * sun_colour.rgb, shade * mirrored, rim, d2 * inv_d);
+}
+
+// Picture colour of a point with unit normal n; look: roughness, metallic, emission.
+vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
+  Reflected light = light_of(place, n, base, look);
+  return with_haze(picture_colour(light.matter + light.sparkle + light.mirrors * light.sky),
+                   light.distance);
+}
+
+// The same, times how much it covers, of what is seen through: its opacity is that of the matter, what
+// it mirrors lies over that.
+vec4 lit_glass(Place place, vec3 n, vec3 base, float opacity, vec3 look) {
+  Reflected light = light_of(place, n, base, look);
+  vec3 through = 1.0 - light.mirrors;
+  vec3 matter = opacity * through * with_haze(picture_colour(light.matter), light.distance);
+  vec3 mirror = light.mirrors * with_haze(picture_colour(light.sky), light.distance);
+  float left = (1.0 - opacity) * dot(through, vec3(0.333));
+  return vec4(matter + mirror + picture_colour(light.sparkle), 1.0 - left);
 }

@@ -18,5 +18,9 @@ void main() {
   vec3 base = v_colour.rgb;
   if (v_pattern.x > 0.5) base *= pattern_tone(body, v_pattern);
   Place place = Place(to_eye, in_shadow + unit * shadow_step, on_ground);
+#ifdef GLASS
+  picture_out = lit_glass(place, n, base, v_colour.a, v_look.xyz);
+#else
   picture_out = vec4(lit_picture_colour(place, n, base, v_look.xyz), v_colour.a);
+#endif
 }

@@ -1,0 +1,3 @@
+#version 330 core
+#define GLASS
+#include "surface.glsl"
