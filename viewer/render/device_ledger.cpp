@@ -256,8 +256,9 @@ bool DeviceLedger::resolve_depth(TargetId from, TargetId to, std::span<const Sci
     fault("resolve of depth in a part outside the target");
     return false;
   }
-  note_content(b->held_depth,
-         a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
+  note_content(
+      b->held_depth,
+      a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
   return true;
 }
 
