@@ -138,7 +138,7 @@ class ReactionSolver {
     const bool events = s_.settings.stepper == "event";
     system.set_joints(s_.joints.all(), {group.joints, group.couplings},
                       events ? Articulation::Drives::held : Articulation::Drives::none);
-    system.settle_drives();
+    system.set_drive_modes();
     system.set_contacts(group.contacts);
     const std::vector<double> y = system.read(0);
     std::vector<double> rates(y.size());

@@ -200,7 +200,7 @@ bool DeviceLedger::end_pass() {
   if (!current_)
     fault("end_pass without begin_pass");
   else
-    settle(targets_.find(current_)->held, pass_content_);
+    note_content(targets_.find(current_)->held, pass_content_);
   return std::exchange(current_, {}).value != 0;
 }
 
@@ -240,7 +240,7 @@ bool DeviceLedger::resolve(TargetId from, TargetId to) {
     fault("resolve without colour");
     return false;
   }
-  settle(b->held, a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
+  note_content(b->held, a->held ? hash_bytes(&a->held, sizeof a->held) : 0);
   return true;
 }
 
@@ -256,12 +256,13 @@ bool DeviceLedger::resolve_depth(TargetId from, TargetId to, std::span<const Sci
     fault("resolve of depth in a part outside the target");
     return false;
   }
-  settle(b->held_depth,
-         a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
+  note_content(
+      b->held_depth,
+      a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
   return true;
 }
 
-void DeviceLedger::settle(uint64_t& held, uint64_t content) {
+void DeviceLedger::note_content(uint64_t& held, uint64_t content) {
   kept_ = content != 0 && held == content;
   stats_.kept += kept_;
   held = content;

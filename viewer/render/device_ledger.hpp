@@ -144,7 +144,7 @@ class DeviceLedger {
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
   bool check_average(const PassDesc& pass, const Target* from, const Target* to);
   bool check_resolve(const Target* from, const Target* to);
-  void settle(uint64_t& held, uint64_t content);
+  void note_content(uint64_t& held, uint64_t content);
 
   bool strict_;
   Slots<BufferId, Buffer> buffers_;

@@ -204,7 +204,7 @@ Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   for (size_t i = 0; i < touching.slots.size(); ++i) block_of_[touching.slots[i]] = uint32_t(i);
   EventSystem system(bodies_, touching.slots, block_of_, forces_, method_);
   system.set_joints(joints_, {touching.joints, touching.couplings});
-  system.settle_drives();
+  system.set_drive_modes();
   system.set_contacts(touching.contacts);
   const std::vector<double> y = system.read(0);
   std::vector<double> rates(y.size());

@@ -101,9 +101,13 @@ double EventGroup::safe_step(double most) const {
   return step;
 }
 
+bool EventGroup::is_shortest(double step) const {
+  return step <= tolerances::shortest_step * state_.part.tick;
+}
+
 Status EventGroup::step_to(double t, double& step) {
   ode::StepReport report;
-  for (int tries = 0; tries < tolerances::most_halvings; ++tries) {
+  for (bool first = true;; first = false) {
     y_ = start_.y;
     state_.system.foresee_slip(t, step, start_.y);
     report = integrator_->step(state_.system, t, step, y_);
@@ -113,10 +117,9 @@ Status EventGroup::step_to(double t, double& step) {
       return {};
     }
     // Newton's method, or the forces at a stage that is far off, may do with less.
-    if (report.status != ode::StepStatus::not_converged &&
-        report.status != ode::StepStatus::refused)
-      break;
-    if (tries == 0 && stuck_at(t)) break;
+    const bool halved = report.status == ode::StepStatus::not_converged ||
+                        report.status == ode::StepStatus::refused;
+    if (!halved || is_shortest(step) || (first && stuck_at(t))) break;
     step *= 0.5;
   }
   if (!state_.system.report().solved)
@@ -132,7 +135,7 @@ Status EventGroup::step_to_event(double t, double& step, EventStats& stats) {
   stats.substituted += state_.system.report().substituted;
   // A shorter step is another step: where forces are not smooth it goes elsewhere.
   bool early = false;
-  for (int nearer = 0; nearer < tolerances::most_nearer_events; ++nearer) {
+  for (;;) {
     const double event = first_event_.find(t, step);
     if (stop_requested()) return stopped_error();
     if (event >= step * (1 - tolerances::step_end)) break;
@@ -314,15 +317,9 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (stop_requested()) return stopped_error();
       state_.system.set_contacts(state_.contacts);
       if (Status done = step_to_event(t, step, stats); !done) {
-        if (state_.system.report().solved || tries >= tolerances::most_tries || stop_requested())
-          return done;
-        // No forces are in balance: nearer to that moment, and there an impulse.
-        const bool stuck = stuck_at(t);
+        if (state_.system.report().solved || stop_requested()) return done;
+        // No forces are in balance from here on: an impulse.
         go_back();
-        if (step > tolerances::shortest_step * part.tick && !stuck) {
-          step *= tolerances::step_to_jam;
-          continue;
-        }
         if (!impacts_.stop_jams(stats)) return done;
         y_ = start_.y;
         step = 0;
@@ -345,7 +342,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       if (exact || tries >= tolerances::most_exact_tries) state_.find_contacts(false);
       // Something came through that nobody watched: look again, more closely.
       if ((exact || tries >= tolerances::most_exact_tries) &&
-          (state_.deepest() <= deep + tolerances::came_through || tries >= tolerances::most_tries))
+          (state_.deepest() <= deep + tolerances::came_through || is_shortest(step)))
         break;
       go_back();
       projections = projected;

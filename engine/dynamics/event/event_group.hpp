@@ -49,6 +49,8 @@ class EventGroup {
   void go_back();
   void note_gone();
   double safe_step(double most) const;
+  /// No step that ends earlier is tried.
+  bool is_shortest(double step) const;
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is
   /// then how far it came.
   Status step_to(double t, double& step);

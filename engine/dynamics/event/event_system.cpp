@@ -88,7 +88,7 @@ void EventSystem::set_joints(const JointsAndCouplings& all, const JointChoice& w
   add_quadratures(size() - first_joint_impulse());
 }
 
-void EventSystem::settle_drives() {
+void EventSystem::set_drive_modes() {
   drives_.stop_motors(bodies_, now_, joints_);
   drives_.set_modes(bodies_, now_);
 }

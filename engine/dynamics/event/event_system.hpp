@@ -44,7 +44,7 @@ class EventSystem final : public ode::System {
                   Articulation::Drives drives = Articulation::Drives::held);
   /// The mode of what acts along coordinates that goes with the bodies' present state, where no
   /// step has set it.
-  void settle_drives();
+  void set_drive_modes();
   /// Integrates what each cause does along with the motion, as quadratures behind the state.
   void book(const ForceRates& rates);
   /// Adds what a step did, from the state at its end; the step began with what read() gave.

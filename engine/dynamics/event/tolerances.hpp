@@ -115,15 +115,13 @@ inline constexpr double reach_spare = 1.1, watched_reaches = 2;
 
 // Steps.
 
-/// Halvings of a step without an answer; tries at one step, and those of them in which it must be
-/// exact; events of a step, each nearer than the one before [-].
-inline constexpr int most_halvings = 16, most_tries = 40, most_exact_tries = 12,
-                     most_nearer_events = 12;
-/// Of a tick: an event that is nearer happens now; a step that ends so near its end ends there. Of
-/// a step: an event so near its end is its end [-].
+/// Halvings of a step that is to be exact, after which it is taken as it is [-]: now and then,
+/// where points and edges of triangles run over each other, closed contacts part at a rate that no
+/// step makes smaller, and which is put right after it.
+inline constexpr int most_exact_tries = 12;
+/// Of a tick: an event that is nearer happens now, and no shorter step is tried; a step that ends
+/// so near its end ends there. Of a step: an event so near its end is its end [-].
 inline constexpr double shortest_step = 1e-9, tick_end = 1e-12, step_end = 1e-10;
-/// A step towards a moment without forces is shortened to this share [-].
-inline constexpr double step_to_jam = 0.25;
 /// What springs do to a body in a step, as a bound on their rates says [rad, of damping -]: the
 /// classical Runge-Kutta method holds rates of up to 2.8, the semi-implicit one of up to 2.
 inline constexpr double swing_per_step = 2;

@@ -24,7 +24,7 @@ bool WideIsland::read_blow_changes() {
 }
 
 /// Where the last turn changed little the blow is over: these points bounce no more.
-void WideIsland::settle_blows() {
+void WideIsland::end_blows() {
   for (Part& part : parts_) part.struck = part.change >= tolerances::bounce_error;
   for (WideContact& c : rows_.contacts) {
     if (!c.bounces) continue;
@@ -118,7 +118,7 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
       part.blown = true;
       part.change = std::max(part.change, blow_change(rest_of(part)));
     }
-    settle_blows();
+    end_blows();
   }
   if (books_.open) bound_blows();
 }

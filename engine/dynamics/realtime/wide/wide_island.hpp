@@ -113,7 +113,7 @@ class WideIsland {
   size_t rows_of(const BlowBooks::Joint& j) const;
   float& row_impulse(const BlowBooks::Joint& j, size_t row, JointPass pass);
   bool read_blow_changes();
-  void settle_blows();
+  void end_blows();
   void mark_struck(WideRange joints, double least);
   template <class Is, class F>
   void for_impulses_of(const Is& is, const F& f);
