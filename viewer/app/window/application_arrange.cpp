@@ -1,6 +1,5 @@
 // What is selected, and where handles and the clipboard put it.
 #include "engine/math/rotation.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
 
 #include <algorithm>

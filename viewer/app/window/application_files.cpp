@@ -1,5 +1,4 @@
 // The scene's file: opened, changed by others, saved, and what was not saved.
-#include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"

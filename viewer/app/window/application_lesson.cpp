@@ -1,5 +1,4 @@
 // The lesson of a scene: pages that set camera, overlays and curves, answers, choices.
-#include "engine/world/world.hpp"
 #include "viewer/app/scenes/scene_lesson.hpp"
 #include "viewer/app/window/application.hpp"
 
