@@ -2,7 +2,6 @@
 #include "engine/core/bytes.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace tumble {

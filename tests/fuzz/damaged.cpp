@@ -2,6 +2,7 @@
 
 #include "tests/fuzz/random_scene.hpp"
 
+#include <cstring>
 #include <iterator>
 
 namespace tumble {
@@ -24,6 +25,34 @@ std::string damaged_text(std::string text, Random& random) {
     }
   }
   return text;
+}
+
+std::string damaged_bytes(std::string bytes, Random& random) {
+  // Whole numbers by their bits, and of floating point 1, 1e30, -1e30, infinity and nan.
+  static const uint32_t numbers[] = {0,          1,          3,          0xff,       0xffff,
+                                     0x7fffffff, 0x80000000, 0xffffffff, 0x3f800000, 0x7149f2ca,
+                                     0xf149f2ca, 0x7f800000, 0x7fc00000, 0x01000000};
+  const uint32_t changes = 1 + random.below(3);
+  for (uint32_t i = 0; i < changes && bytes.size() > 8; ++i) {
+    const size_t at = random.below(uint32_t(bytes.size() - 4));
+    switch (random.below(6)) {
+      case 0:
+        bytes[at] = char(random.below(256));
+        break;
+      case 1:
+        bytes.erase(at, 1 + random.below(30));
+        break;
+      case 2:
+        bytes.insert(at, bytes.substr(at, 1 + random.below(30)));
+        break;
+      case 3:
+        if (random.below(4) == 0) bytes.resize(at);
+        break;
+      default:
+        std::memcpy(&bytes[at], &numbers[random.below(uint32_t(std::size(numbers)))], 4);
+    }
+  }
+  return bytes;
 }
 
 std::string damaged_scene(uint64_t number) {

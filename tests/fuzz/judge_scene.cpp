@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 namespace tumble {
 namespace {
@@ -235,19 +234,6 @@ SceneVerdict judge_scene(const RandomScene& scene, const std::string& stepper, d
     judge.after_tick(v, i % every == 0);
   }
   return v;
-}
-
-void limit_process(unsigned cpu_seconds, size_t megabytes) {
-  const rlimit cpu{cpu_seconds, cpu_seconds + 1};
-  ::setrlimit(RLIMIT_CPU, &cpu);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(TUMBLE_SANITIZED)
-  const rlimit memory{megabytes << 20, megabytes << 20};
-  ::setrlimit(RLIMIT_AS, &memory);
-#else
-  (void)megabytes;
-#endif
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
 }
 
 }  // namespace tumble

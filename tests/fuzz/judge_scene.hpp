@@ -22,8 +22,4 @@ struct SceneVerdict {
 /// stay in each other, and energy comes from booked work only. Takes no limits of its own.
 SceneVerdict judge_scene(const RandomScene& scene, const std::string& stepper, double seconds = 1);
 
-/// Ends this process by a signal when it uses more than this; where a sanitizer takes the address
-/// space for itself, only the time is limited.
-void limit_process(unsigned cpu_seconds, size_t megabytes);
-
 }  // namespace tumble

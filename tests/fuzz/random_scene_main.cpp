@@ -4,6 +4,7 @@
 // --print writes the scene instead of running it, for `tumble open` and `tumble simulate`.
 #include "tests/fuzz/damaged.hpp"
 #include "tests/fuzz/judge_scene.hpp"
+#include "tests/support/process_limits.hpp"
 
 #include <cstdlib>
 #include <optional>

@@ -1,5 +1,7 @@
 #include "tests/support/run_program.hpp"
 
+#include "tests/support/process_limits.hpp"
+
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -28,6 +30,8 @@ namespace {
     const rlimit limit{options.file_limit, options.file_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.cpu_seconds > 0 || options.megabytes > 0)
+    limit_process(options.cpu_seconds, options.megabytes);
   std::vector<char*> argv;
   std::string name = program.string();
   argv.push_back(name.data());

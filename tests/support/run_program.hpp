@@ -19,6 +19,8 @@ struct ProgramOptions {
   std::function<int()> signal_when;
   std::filesystem::path stdout_to;  ///< instead of being captured
   unsigned long file_limit = 0;     ///< RLIMIT_FSIZE [bytes]; 0: none
+  unsigned cpu_seconds = 0;         ///< ended by SIGXCPU after so much processor time; 0: no limit
+  unsigned megabytes = 0;           ///< of address space, as limit_process does; 0: no limit
   double timeout = 120;             ///< killed after this [s]
 };
 

@@ -24,7 +24,8 @@ constexpr std::string_view top_footer =
     "  tumble simulate tower --seconds 10 --csv energies.csv\n"
     "  tumble check my_scene.json               what is wrong with it, line by line\n\n"
     "Exit codes: 0 success; 1 a negative answer; 2 bad usage; 3 bad scene or asset; 4 no usable\n"
-    "renderer; 5 output could not be written; 6 the simulation broke down; 130, 143 interrupted.";
+    "renderer; 5 output could not be written; 6 the simulation broke down; 7 not enough memory;\n"
+    "130, 143 interrupted.";
 
 /// `tumble SCENE` means `tumble open SCENE`, and `tumble` alone opens the default scene.
 std::vector<std::string> with_command(std::span<const std::string> arguments) {

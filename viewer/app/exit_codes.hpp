@@ -12,6 +12,7 @@ enum ExitCode : int {
   exit_no_renderer = 4,    ///< no usable renderer or display
   exit_cannot_write = 5,   ///< output could not be written
   exit_broken_down = 6,    ///< the simulation broke down
+  exit_no_memory = 7,      ///< there was not enough memory
   exit_interrupted = 130,  ///< Ctrl-C
   exit_terminated = 143,   ///< SIGTERM
 };
@@ -20,5 +21,7 @@ enum ExitCode : int {
 int report(const Error& error, ExitCode code);
 /// The same for a warning, without a code.
 void warn(const Error& warning);
+/// The same for a bad_alloc, in any thread; takes no memory.
+ExitCode report_no_memory();
 
 }  // namespace tumble

@@ -2,22 +2,39 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
 
+namespace {
+
+/// Ends the program where an exception cannot reach main: one thrown in another thread, or in a
+/// parallel loop.
+[[noreturn]] void end_without_catch() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    std::_Exit(tumble::report_no_memory());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "tumble: %s\n", e.what());
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   // A file beyond `ulimit -f` shall be a reported error (exit 5), not a silent death.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(end_without_catch);
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
     return tumble::run_command_line(arguments);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr,
-                 "tumble: there is not enough memory for this (use fewer or simpler bodies, "
-                 "meshes and particles, or a machine with more)\n");
-    return tumble::exit_broken_down;
+    return tumble::report_no_memory();
   } catch (const std::exception& e) {  // a library's own
     std::fprintf(stderr, "tumble: %s\n", e.what());
     return tumble::exit_broken_down;

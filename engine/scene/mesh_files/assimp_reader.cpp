@@ -126,7 +126,9 @@ Result<PolygonFile> read_gltf(const std::filesystem::path& file) {
   if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);  // the mark of UTF-8
   const size_t first = start.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || (start[first] != '{' && !start.starts_with("glTF")))
-    return mesh_file_fault(file, "is no glTF file: it starts neither with '{' nor with 'glTF'");
+    return Error{ErrorCode::parse, "is no glTF file: it starts neither with '{' nor with 'glTF'",
+                 file.string(),
+                 "files are read by the ending of their names: name it by its format"};
   return read_with_assimp(file);
 }
 

@@ -2,7 +2,6 @@
 
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/saving/changed_lines.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/scene/resources.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>

@@ -37,7 +37,7 @@ void Application::perform(Action action) {
       return session().step(10);
     case Action::next_impact:
       return session().step_until(
-          [watch = events_, filter = ui_.event_filter](const Frame&, const Frame&) {
+          [watch = instruments_.events, filter = ui_.event_filter](const Frame&, const Frame&) {
             return watch->just_happened(filter);
           },
           20);
@@ -100,7 +100,7 @@ void Application::perform(Action action) {
         return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
                                                       shortcut_of(Action::save_snapshot)));
       end_drag();
-      other_course_ = !edits_.empty();
+      deeds_.jump(false);
       return world_.restore_snapshot();
     case Action::screenshot:
       return screenshots_.want(true);
@@ -147,7 +147,7 @@ void Application::perform(Action action) {
     case Action::toggle_build:
       flip(ui_.shows(PanelId::build), action);
       ui_.building = false;
-      builder_.cancel();
+      tools_.builder.cancel();
       return;
     case Action::toggle_measure:
       flip(ui_.shows(PanelId::measure), action);
@@ -289,14 +289,14 @@ void Application::change_hierarchy_level(int by) {
 /// body and its neighbour come there, and go away with the panel.
 void Application::toggle_microscope() {
   bool& shown = ui_.shows(PanelId::microscope);
-  if (microscope_.take_away()) {
+  if (instruments_.microscope.take_away()) {
     canvas_.meshes().microscope().clear();
     shown = false;
     return;
   }
-  if (microscope_.empty() && (!selection_.empty() || !shown)) {
+  if (instruments_.microscope.empty() && (!selection_.empty() || !shown)) {
     ui_.microscope = {};
-    const bool put = microscope_.put(world_.frame(), selection_.main());
+    const bool put = instruments_.microscope.put(world_.frame(), selection_.main());
     if (!put && !selection_.empty())
       return ui_.toast(ToastKind::info, "No microscope takes this body");
     shown = true;
@@ -308,7 +308,7 @@ void Application::toggle_microscope() {
 /// From then on the clock does not move it.
 void Application::go_to_microscope_step(int step) {
   const MicroscopeRecording* recording = canvas_.meshes().microscope().recording();
-  if (!recording && microscope_probe_.waits())
+  if (!recording && instruments_.microscope_probe.waits())
     return ui_.toast(ToastKind::info,
                      fmt::format("It is watched in a world that stands still: press {}",
                                  shortcut_of(Action::toggle_pause)));
@@ -334,9 +334,9 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* edit = std::get_if<EditBody>(&request)) {
     edit_body(*edit);
   } else if (const auto* mode = std::get_if<ChangeMeshMode>(&request)) {
-    mesh_modes_.change(*mode);
+    tools_.mesh_modes.change(*mode);
   } else if (const auto* measured = std::get_if<MeasureMesh>(&request)) {
-    mesh_modes_.measure(*measured);
+    tools_.mesh_modes.measure(*measured);
   } else if (const auto* way = std::get_if<DisplaceSelected>(&request)) {
     displace_selected(way->way);
   } else if (const auto* threads = std::get_if<ChangeThreads>(&request)) {
@@ -368,11 +368,11 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* part_gone = std::get_if<RemovePart>(&request)) {
     remove_part(*part_gone);
   } else if (const auto* said = std::get_if<AnswerQuestion>(&request)) {
-    answer(said->choice);
+    question_.answer(said->choice, ui_);
   } else if (const auto* curve = std::get_if<AddCurve>(&request)) {
-    measures_.add(curve->quantity, world_.frame());
+    instruments_.measures.add(curve->quantity, world_.frame());
   } else if (const auto* gone = std::get_if<RemoveCurve>(&request)) {
-    measures_.remove(gone->index);
+    instruments_.measures.remove(gone->index);
   } else if (std::holds_alternative<WriteMeasures>(request)) {
     write_measures();
   } else if (const auto* page = std::get_if<TurnLessonPage>(&request)) {
@@ -393,9 +393,9 @@ void Application::apply(const UiRequest& request) {
 }
 
 void Application::restart(bool as_scene) {
-  history_.clear();
+  instruments_.history.clear();
   const std::vector<std::string> changed = settings_.restart(session(), as_scene);
-  other_course_ = !changed.empty() || !edits_.empty();
+  deeds_.jump(!changed.empty());
   if (changed.empty()) return;
   const std::string names = fmt::format("{}", fmt::join(changed, ", "));
   if (as_scene)
@@ -425,7 +425,7 @@ void Application::neighbour_scene(int direction) {
   const auto& scenes = options_.scenes;
   if (scenes.empty()) return;
   // Pressed again while a scene is being opened it goes on from that one.
-  const std::string& from = loader_.asked().empty() ? scene_.name : loader_.asked();
+  const std::string& from = opening_.asked().empty() ? scene_.name : opening_.asked();
   const auto it = std::find_if(scenes.begin(), scenes.end(),
                                [&](const SceneItem& s) { return s.name == from; });
   const auto count = std::ptrdiff_t(scenes.size());

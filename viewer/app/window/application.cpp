@@ -24,7 +24,7 @@ Application::Application(ApplicationOptions options, Canvas canvas)
     : options_(std::move(options)),
       canvas_(std::move(canvas)),
       world_(options_.own_thread),
-      unsaved_(options_.unsaved_folder),
+      deeds_(options_.unsaved_folder),
       marks_(options_.preferences_file.empty()
                  ? std::filesystem::path()
                  : options_.preferences_file.parent_path() / "bookmarks.json"),
@@ -43,7 +43,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   if (!canvas) return canvas.error();
   const bool hints = options.hints;
   std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
-  if (scene.file.unnamed) scene.file.path = app->unsaved_.free_name();
+  if (scene.file.unnamed) scene.file.path = app->deeds_.unsaved().free_name();
   app->show(std::move(scene));
   if (const auto& faults = app->options_.faults; !faults.empty())
     app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
@@ -55,42 +55,28 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
 
 void Application::show(OpenedScene scene) {
   // The newest deeds, too, are kept before it goes.
-  if (world_.any()) unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  if (world_.any()) deeds_.finish(session(), options_.own_thread);
   if (recording()) toggle_recording();
   end_drag();
   hand_.forget();
   pointer_.cancel();
   selection_.clear();
-  selected_then_.clear();
   second_.forget();
-  arranger_.end();
-  box_.reset();
-  edits_.forget();
-  duplicator_.forget();
-  mesh_modes_.forget();
-  parts_.open(scene.parts, scene.live_parts);
+  deeds_.forget();
+  tools_.open(scene.parts, scene.live_parts);
   ui_.part = {};
-  builder_.cancel();
   ui_.pulled_parameters.clear();
-  selected_def_.forget();
   look_into({});
-  history_.clear();
-  measures_.clear();
-  ruler_.forget();
-  newest_tick_ = 0;
-  other_course_ = false;
+  instruments_.open(scene.microscope);
   canvas_.meshes().microscope().clear();
-  microscope_probe_.clear();
   ui_.microscope = {};
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   switch_overlays(scene_.overlays, scene.overlays, ui_.overlays);
-  microscope_.open(scene.microscope);
   settings_.open(scene.world->settings());
   canvas_.open(scene.look, scene.trail);
   camera_.open(scene.view, *scene.world->frame());
-  events_ = std::make_shared<EventWatch>();
-  TickWatchers watchers = {events_};
+  TickWatchers watchers = {instruments_.events};
   if (scene.assertions) watchers.push_back(scene.assertions);
   if (scene.lesson && scene_.lesson && scene.wish.scene == scene_.wish.scene)
     scene.lesson->go_on_from(*scene_.lesson);
@@ -100,11 +86,10 @@ void Application::show(OpenedScene scene) {
   world_.show(std::move(scene.world), std::move(watchers), scene.replay);
   if (scene.replay) ui_.toast(ToastKind::info, "A replay", {scene.replay_words});
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
-  saver_.open(scene.file);
-  begin_replay(scene);
-  unsaved_.open(scene.file);
-  file_watch_.open(scene.file.read_from, scene.file.on_disk);
-  question_.reset();
+  scene_file_.open(scene.file);
+  replay_.open(scene, options_.threads);
+  deeds_.unsaved().open(scene.file);
+  question_.forget();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
   open_marks(tick_seconds);
@@ -114,8 +99,8 @@ void Application::show(OpenedScene scene) {
 
 void Application::finish() {
   if (recording()) toggle_recording();
-  replay_saver_.finish(session());
-  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  replay_.saver().finish(session());
+  deeds_.finish(session(), options_.own_thread);
   keep_marks(true);
 }
 
@@ -130,29 +115,28 @@ void Application::look_at_view() {
     hand_.let_go_of_the_past(session());
     settings_.fetch(session(), follows_replay());
   }
-  if (const auto copies = duplicator_.take(world_.frame()); !copies.empty()) {
+  if (const auto copies = tools_.duplicator.take(world_.frame()); !copies.empty()) {
     selection_.clear();
     for (const BodyId copy : copies) selection_.add(copy);
     if (!ui_.building) open_inspector();  // it would cover places where one goes on building
   }
-  // What was undone, or began otherwise, is not what lies ahead.
-  if (news != goes_on && std::exchange(other_course_, false)) newest_tick_ = 0;
-  newest_tick_ = std::max(newest_tick_, world_.frame().tick);
+  deeds_.see(world_.frame().tick, news != goes_on);
   marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
-  history_.add(world_.frame());
-  measures_.see(world_.frame(), world_.frame().tick < newest_tick_);
-  ruler_.update(world_.frame());
+  instruments_.history.add(world_.frame());
+  instruments_.measures.see(world_.frame(), world_.frame().tick < deeds_.newest_tick());
+  instruments_.ruler.update(world_.frame());
   if (news == ahead) second_.restart_trail();
   second_.update(world_.frame());
   // Closed by its button: nobody looks any more.
-  if (!ui_.shows(PanelId::contact)) probe_.clear();
-  probe_.update(session(), world_.view().to);
+  if (!ui_.shows(PanelId::contact)) instruments_.probe.clear();
+  instruments_.probe.update(session(), world_.view().to);
   // A recording asks for itself, at the ticks that it shows.
-  const auto looked_at = microscope_.setup(ui_.microscope);
-  microscope_probe_.update(session(), world_.view().to, recording() ? std::nullopt : looked_at);
+  const auto looked_at = instruments_.microscope.setup(ui_.microscope);
+  instruments_.microscope_probe.update(session(), world_.view().to,
+                                       recording() ? std::nullopt : looked_at);
   forget_what_is_gone();
-  if (news != goes_on) select_as_then();
-  selected_def_.update(session(), world_.frame(), selection_.main());
+  if (news != goes_on) deeds_.select_as_then(world_.frame(), selection_);
+  tools_.selected_def.update(session(), world_.frame(), selection_.main());
   take_mesh_modes();
   show_notices();
 }
@@ -163,24 +147,15 @@ void Application::show_notices() {
     ui_.toast(ToastKind::error, "The simulation has stopped at the last good tick", {*fault});
   if (const auto refusal = settings_.take_refusal())
     ui_.toast(ToastKind::warning, "This setting is not possible", {refusal->text()});
-  if (const auto refusal = refusal_.take())
+  if (const auto refusal = tools_.refusal.take())
     ui_.toast(ToastKind::warning, "This is not possible", {refusal->text()});
-  if (auto along = refusal_.take_told(); !along.empty())
+  if (auto along = tools_.refusal.take_told(); !along.empty())
     ui_.toast(ToastKind::info, "What needed it is gone, too", std::move(along));
 }
 
 void Application::forget_what_is_gone() {
   selection_.keep_if([&](BodyId id) { return find_slot(world_.frame(), id).has_value(); });
   if (dragging() && !find_slot(world_.frame(), pointer_.drag().body())) end_drag();
-}
-
-/// Where nothing of what was selected stands any more, what was selected at the moment that is
-/// there again.
-void Application::select_as_then() {
-  if (selection_.empty())
-    for (const BodyId id : selected_then_)
-      if (find_slot(world_.frame(), id)) selection_.add(id);
-  if (!selection_.empty()) selected_then_.clear();
 }
 
 UiModel Application::model() const {
@@ -195,8 +170,8 @@ UiModel Application::model() const {
   m.scene_title = scene_.title;
   m.scene_doc = scene_.doc;
   m.parameters = &scene_.parameters;
-  m.opening = std::filesystem::path(loader_.asked()).filename().string();
-  m.opening_seconds = loader_.seconds();
+  m.opening = std::filesystem::path(opening_.asked()).filename().string();
+  m.opening_seconds = opening_.seconds();
   m.settings = settings_.value();
   const SessionCounters counters = world_.session().counters();
   m.threads = options_.threads;
@@ -206,8 +181,8 @@ UiModel Application::model() const {
   m.tick_seconds = counters.tick_seconds;
   m.dropped_seconds = counters.dropped_seconds;
   m.first_tick = counters.first_tick;
-  m.last_tick = std::max(newest_tick_, m.frame->tick);
-  m.deed_ticks = edits_.ticks();
+  m.last_tick = std::max(deeds_.newest_tick(), m.frame->tick);
+  m.deed_ticks = deeds_.edits().ticks();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
   m.way_to = counters.way_to;
@@ -219,37 +194,37 @@ UiModel Application::model() const {
   m.renderer = canvas_.renderer_name();
   m.draw_calls = report().draws.draws;
   m.triangles = report().draws.triangles;
-  m.history = &history_;
+  m.history = &instruments_.history;
   m.comparison = second_.comparison();
-  m.measures = &measures_;
+  m.measures = &instruments_.measures;
   m.marks = &marks_.marks().time;
   m.clock = &marks_.clock();
-  m.ruler = &ruler_.view();
+  m.ruler = &instruments_.ruler.view();
   m.quantity_names = scene_.quantities ? scene_.quantities->names : nullptr;
   for (const CameraKey& key : marks_.marks().flight) m.flight.push_back({key.time, key.follow});
   m.flying = own_flight_ && camera_.flying();
   m.selected = selection_.main();
   m.selected_count = selection_.size();
-  if (box_)
-    m.selection_box =
-        UiRect{float(std::min(box_->x0, box_->x1) + pointer_.origin()),
-               float(std::min(box_->y0, box_->y1)), float(std::abs(box_->x1 - box_->x0)),
-               float(std::abs(box_->y1 - box_->y0))};
-  if (ui_.shows(PanelId::events) || m.paused) m.events = events_->events();
+  if (tools_.box)
+    m.selection_box = UiRect{float(std::min(tools_.box->x0, tools_.box->x1) + pointer_.origin()),
+                             float(std::min(tools_.box->y0, tools_.box->y1)),
+                             float(std::abs(tools_.box->x1 - tools_.box->x0)),
+                             float(std::abs(tools_.box->y1 - tools_.box->y0))};
+  if (ui_.shows(PanelId::events) || m.paused) m.events = instruments_.events->events();
   if (scene_.assertions) m.assertions = scene_.assertions->views();
   m.lesson = lesson_view();
-  m.selected_def = selected_def_.def();
-  m.selected_joints = selected_def_.joints();
-  m.parts = parts_.parts();
-  m.measured_mesh = mesh_modes_.measured();
-  m.measuring_mesh = mesh_modes_.measuring();
-  m.changing_mesh = mesh_modes_.changing();
-  m.reading_mesh = mesh_palette_.reading();
-  m.palette_fault = mesh_palette_.fault();
-  m.contact = probe_.view();
+  m.selected_def = tools_.selected_def.def();
+  m.selected_joints = tools_.selected_def.joints();
+  m.parts = tools_.parts.parts();
+  m.measured_mesh = tools_.mesh_modes.measured();
+  m.measuring_mesh = tools_.mesh_modes.measuring();
+  m.changing_mesh = tools_.mesh_modes.changing();
+  m.reading_mesh = tools_.mesh_palette.reading();
+  m.palette_fault = tools_.mesh_palette.fault();
+  m.contact = instruments_.probe.view();
   m.has_snapshot = world_.has_snapshot();
-  m.question = question_ ? &question_->question : nullptr;
-  m.save = saver_.preview();
+  m.question = question_.question();
+  m.save = scene_file_.preview();
   m.recording = recording();
   m.recorded_frames = world_.recorder().frames();
   if (const auto setup = extract_options().microscope) {
@@ -258,7 +233,7 @@ UiModel Application::model() const {
     m.microscope_step = view.shown();
     m.microscope_algorithm = setup->algorithm;
     m.microscope_refusal = view.refusal();
-    m.microscope_waits = microscope_probe_.waits();
+    m.microscope_waits = instruments_.microscope_probe.waits();
   }
   return m;
 }
@@ -267,30 +242,26 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   canvas_.pace().begin_picture(dt, picture.display_period);
   if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
-  size_ = picture;
+  layout_.size = picture;
   host_.set_theme(ui_.theme);
   keep_preferences();
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
 
-  if (auto loaded = loader_.take()) finish_opening(loaded->asked, std::move(loaded->scene));
-  world_.recorder().look_through(microscope_.setup(ui_.microscope));
+  if (auto opened = opening_.take()) finish_opening(*std::move(opened));
+  world_.recorder().look_through(instruments_.microscope.setup(ui_.microscope));
   world_.advance(dt);
   look_at_view();
   look_at_marks();
 
   keep_hints();
-  saver_.update();
-  parts_.update(session(), edits_.file_edits());
+  tools_.parts.update(session(), deeds_.edits().file_edits());
   look_at_files(dt);
-  if (saver_.preview()) {
-    if (!std::exchange(save_named_, true)) ui_.save_file = saver_.preview()->file;
-    saver_.name(ui_.save_file);
-  }
+  scene_file_.update(ui_.save_file);
   if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {
     const Camera& seen = camera_.camera();
-    mesh_palette_.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
-                         options_.own_thread);
-    (void)mesh_palette_.ready();
+    tools_.mesh_palette.choose(*mesh, Builder::usual_size((seen.target - seen.eye).norm()),
+                               options_.own_thread);
+    (void)tools_.mesh_palette.ready();
   }
   // What a search can find is what is there when it begins.
   const bool searched = !ui_.plot.search.empty(), begun = searched && !searched_;
@@ -300,16 +271,14 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   host_.begin(width, height, dt, in_time_for_search(events), pointer_.is_taken(events, dt));
   const UiModel m = model();
   PanelContext context{host_, m, ui_, requests, dt};
-  free_area_ = draw_ui(context, width, height);
-  area_ = stands_beside()
-              ? ViewArea::beside(picture.width, picture.height, picture.scale, free_area_)
-              : ViewArea(picture.width, picture.height, picture.scale);
-  pointer_.move_to(area_);
-  camera().set_heightening(area_.heightening());
+  layout_.free_area = draw_ui(context, width, height);
+  layout_.area = layout_.area_in(layout_.free_area, stands_beside());
+  pointer_.move_to(layout_.area);
+  camera().set_heightening(layout_.area.heightening());
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
-  host_.end(ui_list_);
+  host_.end(layout_.panels);
   if (ui_.shows(PanelId::scenes))
     thumbnails_.update(options_.scenes, ui_.seen_scenes, canvas_.renderer());
 
@@ -337,11 +306,11 @@ std::optional<ScriptedInput::Point> Application::locate(std::string_view place) 
     return ScriptedInput::Point{double(rect->x) + 0.5 * double(rect->width),
                                 double(rect->y) + 0.5 * double(rect->height)};
   if (!world_.any()) return std::nullopt;
-  const double width = area_.width(), height = area_.height();
+  const double width = layout_.area.width(), height = layout_.area.height();
   const auto seen_at = [&](const Vec3& x_world) -> std::optional<ScriptedInput::Point> {
     const Vec3 x = project(camera_.seen(), x_world, width, height);
     if (!(x.z() > 0)) return std::nullopt;
-    return ScriptedInput::Point{area_.left() + x.x(), x.y()};
+    return ScriptedInput::Point{layout_.area.left() + x.x(), x.y()};
   };
   if (place == "contact") {
     std::optional<Vec3> first;

@@ -1,37 +1,25 @@
 #pragma once
-#include "viewer/app/editing/arranger.hpp"
-#include "viewer/app/editing/builder.hpp"
-#include "viewer/app/editing/clipboard.hpp"
-#include "viewer/app/editing/duplicator.hpp"
-#include "viewer/app/editing/edit_history.hpp"
-#include "viewer/app/editing/mesh_modes.hpp"
-#include "viewer/app/editing/mesh_palette.hpp"
-#include "viewer/app/editing/parts_desk.hpp"
 #include "viewer/app/editing/removal.hpp"
-#include "viewer/app/editing/unsaved_work.hpp"
-#include "viewer/app/session/contact_probe.hpp"
-#include "viewer/app/session/event_watch.hpp"
-#include "viewer/app/session/microscope_probe.hpp"
-#include "viewer/app/session/refusal.hpp"
-#include "viewer/app/session/replay_saver.hpp"
-#include "viewer/app/session/selected_def.hpp"
 #include "viewer/app/session/shown_settings.hpp"
 #include "viewer/app/session/shown_world.hpp"
 #include "viewer/app/window/canvas.hpp"
-#include "viewer/app/window/choice_history.hpp"
 #include "viewer/app/window/comparison_desk.hpp"
-#include "viewer/app/window/file_watch.hpp"
+#include "viewer/app/window/deed_desk.hpp"
+#include "viewer/app/window/editing_tools.hpp"
 #include "viewer/app/window/hand.hpp"
+#include "viewer/app/window/instruments.hpp"
+#include "viewer/app/window/lesson_overlays.hpp"
 #include "viewer/app/window/marks_desk.hpp"
-#include "viewer/app/window/microscope_desk.hpp"
+#include "viewer/app/window/picture_layout.hpp"
 #include "viewer/app/window/pointer.hpp"
 #include "viewer/app/window/preferences.hpp"
-#include "viewer/app/window/ruler.hpp"
+#include "viewer/app/window/question_desk.hpp"
+#include "viewer/app/window/replay_desk.hpp"
 #include "viewer/app/window/scene_camera.hpp"
-#include "viewer/app/window/scene_loader.hpp"
+#include "viewer/app/window/scene_file_desk.hpp"
+#include "viewer/app/window/scene_opening.hpp"
 #include "viewer/app/window/screenshots.hpp"
 #include "viewer/app/window/thumbnails.hpp"
-#include "viewer/app/window/view_area.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
@@ -69,11 +57,7 @@ struct ApplicationOptions {
 /// session.
 class Application {
  public:
-  struct Picture {
-    int width = 1280, height = 800;  ///< [px]
-    double scale = 1;                ///< pixels per UI unit
-    double display_period = 0;       ///< of what it is shown on; 0: not known [s]
-  };
+  using Picture = PictureLayout::Size;
 
   /// The device outlives the application. Fails when the renderer cannot be made.
   static Result<std::unique_ptr<Application>> create(Device& device, ApplicationOptions options,
@@ -94,7 +78,7 @@ class Application {
   /// Brings what is under way to an end that leaves whole files: a recording gets its list.
   void finish();
   /// A scene is being opened beside; destruction waits for it.
-  bool opening() const { return loader_.busy(); }
+  bool opening() const { return opening_.busy(); }
   bool full_screen() const { return full_screen_; }
   PointerLook pointer_look() const { return pointer_.look(); }
   /// What a person makes of the monitor's scale.
@@ -116,21 +100,21 @@ class Application {
   const SessionView& view() const { return world_.view(); }
   const RenderScene& picture() const { return canvas_.picture(); }
   const FrameReport& report() const { return canvas_.report(); }
-  const ViewArea& area() const { return area_; }
+  const ViewArea& area() const { return layout_.area; }
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selection_.main(); }
   const Selection& selection() const { return selection_; }
   /// The contact that is looked at; null when there is none, or nothing is known of it yet.
-  const ContactView* contact() const { return probe_.view(); }
+  const ContactView* contact() const { return instruments_.probe.view(); }
   bool dragging() const { return pointer_.drag().active(); }
   bool recording() const { return world_.recorder().active(); }
   int threads() const { return options_.threads; }
   const std::vector<std::filesystem::path>& captured() const { return screenshots_.saved(); }
-  const Measures& measures() const { return measures_; }
+  const Measures& measures() const { return instruments_.measures; }
   const Thumbnails& thumbnails() const { return thumbnails_; }
   const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
   const SceneMarks& marks() const { return marks_.marks(); }
-  const Ruler& ruler() const { return ruler_; }
+  const Ruler& ruler() const { return instruments_.ruler; }
   /// Null: nothing is compared.
   const WorldComparison* comparison() const { return second_.comparison(); }
   WorldSettings settings() const { return settings_.value(); }
@@ -139,18 +123,11 @@ class Application {
   std::optional<LessonView> lesson() const { return lesson_view(); }
 
  private:
-  /// A question with what each answer does.
-  struct OpenQuestion {
-    Question question;
-    std::vector<std::function<void()>> answers;
-    bool quits = false;  ///< asked before leaving: asking once more leaves
-  };
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene);
-  void open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice,
-               std::vector<ChoiceHistory::Step> deeds = {});
+  void open_for(SceneOpening::Cause cause, SceneWish wish);
   std::vector<ChoiceHistory::Step> deeds_as_choices();
-  void finish_opening(const SceneWish& asked, Result<OpenedScene> opened);
+  void finish_opening(SceneOpening::Opened done);
   void look_at_view();
   UiModel model() const;
   void route(std::span<const InputEvent> events, double dt);
@@ -167,8 +144,6 @@ class Application {
   Removal begin_removal(std::string what);
   void save_scene();
   void write_scene(const std::string& file);
-  void ask(OpenQuestion question);
-  void answer(size_t choice);
   void look_at_files(double dt);
   void take_up(std::string text, std::filesystem::path called = {});
   void offer_kept_work();
@@ -210,7 +185,6 @@ class Application {
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
-  void select_as_then();
   void restart(bool as_scene);
   void flip_overlay(bool Overlays::*overlay, Action action);
   bool shows_anything(bool Overlays::*overlay);
@@ -222,13 +196,12 @@ class Application {
   Recording new_recording() const;
   ExtractOptions extract_options() const;
   void show_notices();
-  void begin_replay(const OpenedScene& scene);
   void look_at_replay();
   void tell_of_replay();
   bool follows_replay() const;
   void save_replay(bool packed);
   void toggle_recording(bool video = false);
-  double aspect() const { return area_.aspect(); }
+  double aspect() const { return layout_.area.aspect(); }
   bool stands_beside() const;
   void next_comparison_view();
   void name_pictures(RenderScene& a, RenderScene& b) const;
@@ -275,64 +248,36 @@ class Application {
   Canvas canvas_;
   ShownWorld world_;
   OpenedScene scene_;  ///< without its world
-  SceneLoader loader_;
+  SceneOpening opening_;
+  SceneFileDesk scene_file_;
   ShownSettings settings_;
-  SceneCamera camera_;
-  uint64_t newest_tick_ = 0;   ///< seen on this course of history
-  bool other_course_ = false;  ///< another one begins with the next jump
-  EditHistory edits_;
   WorldSettings settings_before_;  ///< the newest change of them
-  ChoiceHistory choices_;
-  std::optional<ChoiceHistory::Step> choosing_;    ///< what the scene is being opened for
-  std::vector<ChoiceHistory::Step> deeds_before_;  ///< done to the scene before that
-  Duplicator duplicator_;
-  Builder builder_;
+  ReplayDesk replay_;
   ComparisonDesk second_;
-  Arranger arranger_;
-  BodyClipboard clipboard_;
-  std::optional<PointerBox> box_;  ///< being drawn around bodies
-  std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
-  SelectedDef selected_def_;
-  MeshModes mesh_modes_;
-  MeshPalette mesh_palette_;
-  PartsDesk parts_;
-  Refusal refusal_;
-  SceneSaver saver_;
-  bool save_named_ = false;  ///< where it would go was proposed: from then on a person says
-  ReplaySaver replay_saver_;
-  uint64_t replay_deeds_ = 0;  ///< of the replay that is played, as far as panels have seen them
-  UnsavedWork unsaved_;
-  FileWatch file_watch_;
-  bool reloading_ = false;  ///< what is being opened is the scene that is shown, written anew
-  std::optional<OpenQuestion> question_;
-  History history_;
-  Measures measures_;
-  MarksDesk marks_;
-  Ruler ruler_;
-  Overlays lesson_overlays_;            ///< those that the page shown has switched on
-  std::shared_ptr<EventWatch> events_;  ///< of the world that is shown
-  MicroscopeDesk microscope_;
-  MicroscopeProbe microscope_probe_;
-  ContactProbe probe_;
+
+  DeedDesk deeds_;
   Selection selection_;
-  std::vector<BodyId> selected_then_;  ///< at the moment that undo or redo goes to
+  EditingTools tools_;
+  Instruments instruments_;
+  MarksDesk marks_;
+  LessonOverlays lesson_overlays_;
+
+  PictureLayout layout_;
+  SceneCamera camera_;
+  bool own_flight_ = false;  ///< the camera is on that of a person, not on the scene's
+  Screenshots screenshots_;
+  bool plot_wanted_ = false;              ///< as a picture
+  std::set<std::string> broken_shaders_;  ///< those that were told of
 
   UiHost host_;
   UiState ui_;
-  UiDrawList ui_list_;
-  UiRect free_area_;  ///< of the scene, between the panels [UI units]
-  ViewArea area_;     ///< of its picture, or both pictures
+  QuestionDesk question_;
   Pointer pointer_;
   Hand hand_;
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
-  Screenshots screenshots_;
+  bool searched_ = false;               ///< for something to be plotted
   Thumbnails thumbnails_;
-  std::optional<FolderView> browsed_;     ///< none: the list of scenes is shown
-  Picture size_{0, 0, 1, 0};              ///< of the picture under way
-  bool own_flight_ = false;               ///< the camera is on that of a person, not on the scene's
-  bool plot_wanted_ = false;              ///< as a picture
-  bool searched_ = false;                 ///< for something to be plotted
-  std::set<std::string> broken_shaders_;  ///< those that were told of
+  std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
   bool quit_ = false, full_screen_ = false;
 };
 

@@ -1,6 +1,5 @@
 // What is selected, and where handles and the clipboard put it.
 #include "engine/math/rotation.hpp"
-#include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ std::string deed_of(HandleKind kind) {
 }  // namespace
 
 Handles::View Application::handles_view() const {
-  return {camera_.seen(), area_.width(), area_.height()};
+  return {camera_.seen(), layout_.area.width(), layout_.area.height()};
 }
 
 /// Where scripts take hold of a handle: "x", "across_y", "middle".
@@ -51,7 +50,7 @@ void Application::show_handles(HandleKind kind) {
   ui_.handles.kind = ui_.handles.kind == kind ? HandleKind::none : kind;
   if (ui_.handles.kind == HandleKind::none) return;
   ui_.building = false;
-  builder_.cancel();
+  tools_.builder.cancel();
   if (selection_.empty()) ui_.toast(ToastKind::info, "Click a body to see its handles");
 }
 
@@ -70,10 +69,10 @@ ArrangeGestures Application::gestures() const {
 
 void Application::arrange(const PointerEffects& effects) {
   if (effects.arrange_began)
-    arranger_.begin(world_.frame(), selection_, ui_.handles, handles_view(), effects.press_x,
-                    effects.press_y);
-  if (effects.arrange_moved && arranger_.active()) arrange_to(effects.x, effects.y);
-  if (effects.arrange_ended) arranger_.end();
+    tools_.arranger.begin(world_.frame(), selection_, ui_.handles, handles_view(), effects.press_x,
+                          effects.press_y);
+  if (effects.arrange_moved && tools_.arranger.active()) arrange_to(effects.x, effects.y);
+  if (effects.arrange_ended) tools_.arranger.end();
 }
 
 void Application::arrange_to(double x, double y) {
@@ -82,17 +81,18 @@ void Application::arrange_to(double x, double y) {
   const SessionView& shown = world_.view();
   const auto hit =
       pick(*shown.from, *shown.to, shown.s, pixel_ray(view.camera, x, y, view.width, view.height),
-           1e4, arranger_.bodies());
-  const auto way = arranger_.drag(ui_.handles, view, x, y, snap, hit);
+           1e4, tools_.arranger.bodies());
+  const auto way = tools_.arranger.drag(ui_.handles, view, x, y, snap, hit);
   if (!way) return;
   const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names(), true);
-  arranger_.apply(session(), *way, edits, refusal_);
+  tools_.arranger.apply(session(), *way, edits, tools_.refusal);
 }
 
 /// In a world that runs gravity would take it from the hand between two moves of the pointer.
 void Application::hold_arranged() {
-  if (session().paused() || !arranger_.last() || edits_.empty()) return;
-  arranger_.apply(session(), *arranger_.last(), edits_.newest(), refusal_);
+  if (session().paused() || !tools_.arranger.last() || deeds_.edits().empty()) return;
+  tools_.arranger.apply(session(), *tools_.arranger.last(), deeds_.edits().newest(),
+                        tools_.refusal);
 }
 
 void Application::displace_selected(const Displacement& way) {
@@ -103,19 +103,19 @@ void Application::displace_selected(const Displacement& way) {
   about.shift = frame->direction(way.shift);
   about.turn = frame->q * way.turn * frame->q.conjugate();
   const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names());
-  Arranger::apply_once(session(), selection_, about, edits, refusal_);
+  Arranger::apply_once(session(), selection_, about, edits, tools_.refusal);
 }
 
 void Application::copy_selected() {
   if (selection_.empty()) return ui_.toast(ToastKind::info, "Select a body to copy it");
-  clipboard_.copy(session(), selection_, scene_.file.path.string());
+  tools_.clipboard.copy(session(), selection_, scene_.file.path.string());
   ui_.toast(ToastKind::info,
             fmt::format("Copied {}: {} pastes", selected_names(), shortcut_of(Action::paste)));
 }
 
 /// Onto what is under the pointer; where that is a panel, or nothing, before the camera.
 void Application::paste() {
-  if (clipboard_.empty())
+  if (tools_.clipboard.empty())
     return ui_.toast(ToastKind::info, fmt::format("Nothing was copied: {} copies what is selected",
                                                   shortcut_of(Action::copy)));
   const Handles::View view = handles_view();
@@ -130,12 +130,13 @@ void Application::paste() {
       hit ? hit->x_world
           : ray.origin + (view.camera.target - view.camera.eye).norm() * ray.direction.normalized();
   if (hit) place.normal = hit->normal;
-  const DeedEdits edits =
-      begin_edit(clipboard_.count() == 1 ? "Paste a body"
-                                         : fmt::format("Paste {} bodies", clipboard_.count()));
-  duplicator_.await(clipboard_.paste(session(), scene_.file.path.string(), place, edits, refusal_));
-  parts_.name_springs(session(), edits);
-  parts_.note();
+  const DeedEdits edits = begin_edit(
+      tools_.clipboard.count() == 1 ? "Paste a body"
+                                    : fmt::format("Paste {} bodies", tools_.clipboard.count()));
+  tools_.duplicator.await(
+      tools_.clipboard.paste(session(), scene_.file.path.string(), place, edits, tools_.refusal));
+  tools_.parts.name_springs(session(), edits);
+  tools_.parts.note();
 }
 
 void Application::select_all() {
@@ -148,9 +149,9 @@ void Application::select_all() {
 
 /// What moves and has its centre in the box joins the selection.
 void Application::select_box(const PointerBox& box) {
-  box_ = box;
+  tools_.box = box;
   if (!box.done) return;
-  box_.reset();
+  tools_.box.reset();
   const auto [left, right] = std::minmax(box.x0, box.x1);
   const auto [top, bottom] = std::minmax(box.y0, box.y1);
   const Handles::View view = handles_view();

@@ -13,7 +13,7 @@ namespace tumble {
 /// scene's forces, its handle here.
 void Application::draw_marks() {
   RenderScene& picture = canvas_.picture();
-  if (const ContactView* contact = probe_.view(); contact && contact->certificate) {
+  if (const ContactView* contact = instruments_.probe.view(); contact && contact->certificate) {
     PointMark ring;
     ring.x = contact->certificate->x_world.cast<float>();
     ring.occlusion = Occlusion::none;
@@ -26,10 +26,10 @@ void Application::draw_marks() {
       picture.points.push_back(ring);
     }
   }
-  arranger_.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.x(),
-                 pointer_.held().y, picture);
-  if (ui_.building) builder_.draw(ui_.build, world_.frame(), picture);
-  ruler_.draw(world_.view(), picture);
+  tools_.arranger.draw(world_.frame(), selection_, ui_.handles, handles_view(), pointer_.x(),
+                       pointer_.held().y, picture);
+  if (ui_.building) tools_.builder.draw(ui_.build, world_.frame(), picture);
+  instruments_.ruler.draw(world_.view(), picture);
   draw_emitters();
   if (!pointer_.drag().active()) return;
   PointMark handle;
@@ -50,9 +50,10 @@ ExtractOptions Application::extract_options() const {
   options.selected = selection_.main();
   options.also_selected = selection_.all();
   options.notes = scene_.notes;
-  options.microscope = microscope_.setup(ui_.microscope);
+  options.microscope = instruments_.microscope.setup(ui_.microscope);
   options.microscope_step = ui_.microscope.step;
-  options.microscope_said = recording() ? world_.recorder().said() : microscope_probe_.said();
+  options.microscope_said =
+      recording() ? world_.recorder().said() : instruments_.microscope_probe.said();
   options.world_hierarchy = settings_.value().hierarchy;
   return options;
 }
@@ -70,7 +71,7 @@ void Application::name_pictures(RenderScene& a, RenderScene& b) const {
     TextLabel label;
     label.text = words->empty() ? letter : fmt::format("{}: {}", letter, *words);
     label.in_world = false;
-    label.x = Vec3f(14, ui_.hidden ? at_top : below_bar, 0) * float(size_.scale);
+    label.x = Vec3f(14, ui_.hidden ? at_top : below_bar, 0) * float(layout_.size.scale);
     label.size = 17;
     picture->texts.push_back(std::move(label));
   }
@@ -94,19 +95,18 @@ Status Application::draw_sequence(Recorder& recorder) {
   // A sequence shows the scene, not the panels, and keeps its size when the window changes.
   UiDrawList no_panels;
   canvas_.picture().legend_area.reset();
-  const UiRect all{0, 0, float(recorder.width()), float(recorder.height())};
-  const ViewArea area = stands_beside()
-                            ? ViewArea::beside(recorder.width(), recorder.height(), 1, all)
-                            : ViewArea(recorder.width(), recorder.height(), 1);
+  PictureLayout layout;
+  layout.size = {recorder.width(), recorder.height(), 1};
+  const ViewArea area = layout.area_in(layout.all(), stands_beside());
   look_from(area);
   Status s = draw_pictures(no_panels, area, recorder.width(), recorder.height());
   if (s) s = recorder.add(canvas_.renderer(), canvas_.picture().camera, report().draws.hash);
-  look_from(area_);
+  look_from(layout_.area);
   return s;
 }
 
 Status Application::draw() {
-  canvas_.compose(world_.view(), extract_options(), area_.seen_by(camera_.camera()));
+  canvas_.compose(world_.view(), extract_options(), layout_.area.seen_by(camera_.camera()));
   if (ui_.compared_as == ComparedAs::ghost)
     second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
   draw_marks();
@@ -115,7 +115,7 @@ Status Application::draw() {
   const bool best = screenshots_.wanted() || recording() || !options_.own_thread;
   picture.quality = canvas_.quality(ui_.quality, best);
   picture.resolution = canvas_.resolution(ui_.quality, best);
-  picture.ui_scale = float(size_.scale);
+  picture.ui_scale = float(layout_.size.scale);
   if (stands_beside())
     name_pictures(picture,
                   second_.draw_beside(world_.view(), extract_options(), canvas_.meshes(), picture));
@@ -127,16 +127,17 @@ Status Application::draw() {
   // The panel says what the plate says.
   if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
     picture.plate.reset();
-  if (picture.plate && !ui_list_.draws.empty() && !ui_.hidden)
-    picture.plate->top = free_area_.y * float(size_.scale);
+  if (picture.plate && !layout_.panels.draws.empty() && !ui_.hidden)
+    picture.plate->top = layout_.pixels(layout_.free_area.y);
   picture.legend_area.reset();
-  if (!ui_list_.draws.empty() && !area_.places()) {
-    const auto scale = float(size_.scale);
-    picture.legend_area = {free_area_.x * scale, free_area_.y * scale,
-                           (free_area_.x + free_area_.width) * scale,
-                           (free_area_.y + free_area_.height) * scale};
+  if (!layout_.panels.draws.empty() && !layout_.area.places()) {
+    const UiRect& free = layout_.free_area;
+    picture.legend_area = {layout_.pixels(free.x), layout_.pixels(free.y),
+                           layout_.pixels(free.x + free.width),
+                           layout_.pixels(free.y + free.height)};
   }
-  return without_broken_shaders(draw_pictures(ui_list_, area_, size_.width, size_.height));
+  return without_broken_shaders(
+      draw_pictures(layout_.panels, layout_.area, layout_.size.width, layout_.size.height));
 }
 
 void Application::next_comparison_view() {
@@ -162,9 +163,8 @@ Status Application::without_broken_shaders(Status drawn) {
 }
 
 Recording Application::new_recording() const {
-  return {options_.capture_folder, scene_.name, canvas_.renderer_name(),
-          options_.version,        size_.width, size_.height,
-          options_.own_thread};
+  return {options_.capture_folder, scene_.name,         canvas_.renderer_name(), options_.version,
+          layout_.size.width,      layout_.size.height, options_.own_thread};
 }
 
 void Application::save_screenshot() {
@@ -178,7 +178,7 @@ void Application::save_screenshot() {
 void Application::write_measures() {
   const auto file = options_.capture_folder / (scene_.name + "_measures.csv");
   Status done = make_folder(options_.capture_folder);
-  if (done) done = write_file(file, std::string_view(measures_.csv()));
+  if (done) done = write_file(file, std::string_view(instruments_.measures.csv()));
   if (!done)
     return ui_.toast(ToastKind::error, "The curves cannot be written", {done.error().text()});
   ui_.toast(ToastKind::info, "Written to " + file.string());
@@ -188,15 +188,12 @@ void Application::write_measures() {
 /// pictures beside each other take the room of the panels, too.
 void Application::save_plain_screenshot() {
   UiDrawList panels;
-  std::swap(panels, ui_list_);
-  const ViewArea shown = area_;
-  if (area_.places()) {
-    const UiRect all{0, 0, float(size_.width / size_.scale), float(size_.height / size_.scale)};
-    area_ = ViewArea::beside(size_.width, size_.height, size_.scale, all);
-  }
+  std::swap(panels, layout_.panels);
+  const ViewArea shown = layout_.area;
+  if (layout_.area.places()) layout_.area = layout_.area_in(layout_.all(), true);
   const Status drawn = draw();
-  area_ = shown;
-  std::swap(panels, ui_list_);
+  layout_.area = shown;
+  std::swap(panels, layout_.panels);
   (void)screenshots_.take(false);
   if (drawn)
     save_screenshot();

@@ -26,15 +26,11 @@ std::string Application::name_of(BodyId id) const {
 /// Before everything that a person does to the world. What a widget asks for in every picture while
 /// it is held, or while its text is being typed, is one deed.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
-  unsaved_.note();
-  choices_.forget_taken_back();
+  deeds_.unsaved().note();
+  deeds_.choices().forget_taken_back();
   leave_loop();
-  const bool goes_on = by_gesture && in_gesture();
-  if (goes_on && gesture_ == what && !edits_.empty()) return edits_.newest();
-  gesture_ = goes_on ? what : std::string();
-  // What came after this moment will not come any more.
-  newest_tick_ = world_.frame().tick;
-  return edits_.begin(session(), std::move(what), world_.frame().tick, selection_.all());
+  return deeds_.begin(session(), std::move(what), by_gesture && in_gesture(), world_.frame().tick,
+                      selection_.all());
 }
 
 bool Application::in_gesture() const {
@@ -43,16 +39,12 @@ bool Application::in_gesture() const {
 
 void Application::take_back() {
   end_drag();
-  unsaved_.note();
-  parts_.note();
-  auto back = edits_.undo(session(), selection_.all());
+  tools_.parts.note();
+  const auto back = deeds_.take_back(session(), selection_.all());
   if (!back) {
-    if (!go_back_on(choices_.back())) ui_.toast(ToastKind::info, "There is nothing to take back");
+    if (!go_back_on(deeds_.choices().back()))
+      ui_.toast(ToastKind::info, "There is nothing to take back");
     return;
-  }
-  if (!back->beside) {
-    other_course_ = true;
-    selected_then_ = std::move(back->selected);
   }
   ui_.toast(ToastKind::info, "Taken back: " + back->what);
 }
@@ -60,16 +52,12 @@ void Application::take_back() {
 void Application::do_again() {
   end_drag();
   leave_loop();
-  unsaved_.note();
-  parts_.note();
-  auto back = edits_.redo(session(), selection_.all());
+  tools_.parts.note();
+  const auto back = deeds_.do_again(session(), selection_.all());
   if (!back) {
-    if (!go_back_on(choices_.again())) ui_.toast(ToastKind::info, "There is nothing to do again");
+    if (!go_back_on(deeds_.choices().again()))
+      ui_.toast(ToastKind::info, "There is nothing to do again");
     return;
-  }
-  if (!back->beside) {
-    other_course_ = true;
-    selected_then_ = std::move(back->selected);
   }
   ui_.toast(ToastKind::info, "Done again: " + back->what);
 }
@@ -83,7 +71,7 @@ std::string Application::selected_names() const {
 /// A deed that takes away something that others may need.
 Removal Application::begin_removal(std::string what) {
   const DeedEdits edits = begin_edit(std::move(what));
-  return Removal(scene_.file, edits_.file_edits(), edits, parts_, refusal_);
+  return Removal(scene_.file, deeds_.edits().file_edits(), edits, tools_.parts, tools_.refusal);
 }
 
 void Application::delete_selected() {
@@ -96,7 +84,7 @@ void Application::delete_selected() {
     }
     removal.finish(world);
   });
-  parts_.note();
+  tools_.parts.note();
   selection_.clear();
 }
 
@@ -116,21 +104,20 @@ void Application::duplicate_selected() {
   Vec3 aside = Vec3::Zero();
   aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
   const DeedEdits edits = begin_edit("Copy " + selected_names());
-  duplicator_.copy(session(), selection_, aside, session().paused(), edits);
-  parts_.name_springs(session(), edits);
-  parts_.note();
+  tools_.duplicator.copy(session(), selection_, aside, session().paused(), edits);
+  tools_.parts.name_springs(session(), edits);
+  tools_.parts.note();
 }
 
 void Application::change_settings(const WorldSettings& wanted) {
   const std::vector<std::string> names = changed_settings(settings_.value(), wanted);
   const std::string what = fmt::format("Change {}", fmt::join(names, ", "));
-  const bool goes_on = in_gesture() && gesture_ == what && edits_.last() == what;
+  const bool goes_on = deeds_.goes_on(what, in_gesture());
   if (!goes_on) settings_before_ = settings_.value();
   const DeedEdits edits = begin_edit(what, true);
   if (goes_on && changed_settings(settings_before_, wanted).empty()) {
     // Esc while a number is typed, or a slider that was pulled back.
-    edits_.drop_newest();
-    gesture_.clear();
+    deeds_.drop_newest();
   }
   session().post([edits, wanted](World& world) {
     if (edits->empty()) edits->push_back(ChangedSettings{world.settings(), wanted});
@@ -149,7 +136,8 @@ void Application::keep_hints() {
     else if (holds)
       ui_.toast(ToastKind::info, words, lines);
   };
-  keep(ui_.building && builder_.half_way(), "Now the other body, or nothing for the world", {});
+  keep(ui_.building && tools_.builder.half_way(), "Now the other body, or nothing for the world",
+       {});
   std::string keys;
   for (const Action way : {Action::fly_forward, Action::fly_left, Action::fly_back,
                            Action::fly_right, Action::fly_down, Action::fly_up})
@@ -162,7 +150,7 @@ void Application::keep_hints() {
 /// A click on the picture while something is being built.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
-  const Ray ray = pixel_ray(camera_.seen(), x, y, area_.width(), area_.height());
+  const Ray ray = pixel_ray(camera_.seen(), x, y, layout_.area.width(), layout_.area.height());
   const double view = (camera.target - camera.eye).norm();
   if (const auto* part = std::get_if<NewPart>(&ui_.build.what))
     return add_parts(part->kind, hit ? hit->x_world : ray.origin + view * ray.direction,
@@ -170,23 +158,23 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
                      Builder::usual_size(hit ? hit->distance : view));
   std::optional<Addition> made;
   if (const auto* chosen = std::get_if<NewMesh>(&ui_.build.what)) {
-    const auto mesh = mesh_palette_.ready();
+    const auto mesh = tools_.mesh_palette.ready();
     if (!mesh || !(mesh->chosen == *chosen))
-      return mesh_palette_.fault().empty()
+      return tools_.mesh_palette.fault().empty()
                  ? ui_.toast(ToastKind::info, "The mesh is still being read")
                  : ui_.toast(ToastKind::warning, "This mesh cannot be placed",
-                             {mesh_palette_.fault()});
+                             {tools_.mesh_palette.fault()});
     made =
         Builder::mesh_body(ui_.build, *mesh, hit ? hit->x_world : ray.origin + view * ray.direction,
                            hit ? hit->normal : Vec3::UnitY());
   } else {
-    made = builder_.click(ui_.build, world_.frame(), ray, hit, view);
+    made = tools_.builder.click(ui_.build, world_.frame(), ray, hit, view);
   }
   if (made) {
     const DeedEdits edits = begin_edit(made->what);
     using Bodies = std::vector<BodyId>;
-    duplicator_.await(
-        session().call([make = made->make, edits, refusal = refusal_](World& world) -> Bodies {
+    tools_.duplicator.await(session().call(
+        [make = made->make, edits, refusal = tools_.refusal](World& world) -> Bodies {
           auto added = make(world);
           if (!added) {
             refusal.say(added.error());
@@ -195,13 +183,13 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
           edits->push_back(std::move(added->edit));
           return added->body.is_null() ? Bodies{} : Bodies{added->body};
         }));
-    parts_.name_springs(session(), edits);
-    parts_.note();
+    tools_.parts.name_springs(session(), edits);
+    tools_.parts.note();
     // What was joined is seen, and where.
     if (std::holds_alternative<NewJoint>(ui_.build.what) ||
         std::holds_alternative<NewSpring>(ui_.build.what))
       ui_.overlays.joints = true;
-  } else if (builder_.half_way()) {
+  } else if (tools_.builder.half_way()) {
     keep_hints();
   } else {
     ui_.toast(ToastKind::info, "It begins at a body");
@@ -210,8 +198,8 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
 
 void Application::edit_body(const EditBody& edit) {
   const DeedEdits edits = begin_edit(edit.what, true);
-  selected_def_.expect(edit);
-  session().post([edit, edits, refusal = refusal_](World& world) {
+  tools_.selected_def.expect(edit);
+  session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const auto before = world.body_def(edit.id);
     if (!before) return;
     BodyDef after = *before;
@@ -224,7 +212,7 @@ void Application::edit_body(const EditBody& edit) {
 
 /// What a mesh collides as from now on, once it has been made.
 void Application::take_mesh_modes() {
-  auto made = mesh_modes_.take();
+  auto made = tools_.mesh_modes.take();
   if (!made) return;
   if (!made->parts)
     return ui_.toast(ToastKind::warning, "This is not possible", {made->parts.error().text()});
@@ -242,8 +230,8 @@ void Application::take_mesh_modes() {
 
 void Application::edit_joint(const EditJoint& edit) {
   const DeedEdits edits = begin_edit(edit.what, true);
-  selected_def_.expect(edit);
-  session().post([edit, edits, refusal = refusal_](World& world) {
+  tools_.selected_def.expect(edit);
+  session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const JointDef* now = world.joint(edit.id);
     if (!now) return;
     const JointDef before = *now;
@@ -261,7 +249,7 @@ void Application::remove_joint(JointId id) {
   for (const JointFrame& joint : *world_.frame().joints)
     if (joint.id == id && !joint.name.empty()) name = joint.name;
   const Removal removal = begin_removal("Remove " + name);
-  selected_def_.ask_again();
+  tools_.selected_def.ask_again();
   session().post([id, name, removal](World& world) {
     if (world.destroy_joint(id).ok()) removal.take(world, RemovedJoint{name});
     removal.finish(world);

@@ -1,5 +1,4 @@
 // The scene's file: opened, changed by others, saved, and what was not saved.
-#include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -32,51 +31,46 @@ void Application::browse(const std::string& folder) {
 }
 
 void Application::open(SceneWish wish) {
-  open_as(std::move(wish), std::nullopt);
+  open_for({}, std::move(wish));
 }
 
-void Application::open_as(SceneWish wish, std::optional<ChoiceHistory::Step> choice,
-                          std::vector<ChoiceHistory::Step> deeds) {
-  choosing_ = std::move(choice);
-  deeds_before_ = std::move(deeds);
-  if (options_.own_thread)
-    loader_.start(options_.open, std::move(wish));
-  else
-    finish_opening(wish, options_.open(wish));
+void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
+  if (options_.own_thread) return opening_.start(options_.open, std::move(wish), std::move(cause));
+  auto scene = options_.open(wish);
+  finish_opening({std::move(wish), std::move(scene), std::move(cause)});
 }
 
-void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> opened) {
-  auto choice = std::exchange(choosing_, std::nullopt);
-  const std::vector<ChoiceHistory::Step> deeds = std::exchange(deeds_before_, {});
+void Application::finish_opening(SceneOpening::Opened done) {
+  auto& [asked, opened, cause] = done;
+  auto& choice = cause.choice;
   if (opened) {
     ui_.toasts.clear();
     // The same scene with other numbers or another text is looked at from where one stands, and
     // waits if it did.
     const bool same = asked.scene == scene_.wish.scene &&
-                      (choice || !asked.overrides.empty() || asked.text || reloading_);
+                      (choice || !asked.overrides.empty() || asked.text || cause.reloads);
     const Camera camera = camera_.camera();
     const bool paused = session().paused();
-    const bool reloaded = std::exchange(reloading_, false);
-    const uint64_t tick = reloaded ? world_.frame().tick : 0;
+    const uint64_t tick = cause.reloads ? world_.frame().tick : 0;
     if (opened->file.unnamed) {
       // Only with its newest deeds is it known whether the scene that is shown needs its name.
-      unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+      deeds_.finish(session(), options_.own_thread);
       opened->file.path = !asked.called.empty()         ? asked.called
                           : same && scene_.file.unnamed ? scene_.file.path
-                                                        : unsaved_.free_name();
+                                                        : deeds_.unsaved().free_name();
     }
     show(std::move(*opened));
     if (!choice) {
-      choices_.forget();
+      deeds_.choices().forget();
     } else {
       if (choice->way != ChoiceHistory::Way::anew)
         ui_.toast(ToastKind::info,
                   (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
                       choice->what);
-      for (const ChoiceHistory::Step& deed : deeds) choices_.gone(deed);
-      choices_.gone(*std::move(choice));
+      for (const ChoiceHistory::Step& deed : cause.deeds) deeds_.choices().gone(deed);
+      deeds_.choices().gone(*std::move(choice));
     }
-    if (reloaded)
+    if (cause.reloads)
       ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
                                               "what was changed here"
                                             : "The scene's file has changed: opened anew");
@@ -86,7 +80,6 @@ void Application::finish_opening(const SceneWish& asked, Result<OpenedScene> ope
     if (tick > 0) session().seek(tick);
     return session().set_paused(paused);
   }
-  reloading_ = false;
   const std::string file = std::filesystem::path(asked.scene).filename().string();
   ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
 }
@@ -104,14 +97,14 @@ void Application::begin_building() {
 /// one was. What was changed here and not saved is done to the new text as well.
 void Application::look_at_files(double dt) {
   // Closed by its button, or by a click beside it.
-  if (question_ && !ui_.shows(PanelId::question)) answer(question_->answers.size() - 1);
-  unsaved_.update(session(), edits_.file_edits(), dt);
-  const auto now = file_watch_.look(dt);
+  if (!ui_.shows(PanelId::question)) question_.decline(ui_);
+  deeds_.unsaved().update(session(), deeds_.edits().file_edits(), dt);
+  const auto now = scene_file_.changed_by_others(dt);
   if (!now || recording()) return;
   SceneWish wish = scene_.wish;
   wish.text.reset();
-  if (unsaved_.any()) {
-    std::vector<SceneEdit> edits = unsaved_.edits();
+  if (deeds_.unsaved().any()) {
+    std::vector<SceneEdit> edits = deeds_.unsaved().edits();
     auto both = save_edits(*now, scene_.file.path.string(), edits);
     if (!both || scene_.wish.text)
       return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
@@ -119,8 +112,7 @@ void Application::look_at_files(double dt) {
                         "the file."});
     wish.text = std::move(both->text);
   }
-  reloading_ = true;
-  open(std::move(wish));
+  open_for({{}, {}, true}, std::move(wish));
 }
 
 void Application::take_up(std::string text, std::filesystem::path called) {
@@ -132,9 +124,9 @@ void Application::take_up(std::string text, std::filesystem::path called) {
 
 /// New scenes that nobody has saved: each can be gone on with, and none is lost by another.
 void Application::offer_unnamed_work() {
-  const auto kept = unsaved_.kept_unnamed();
+  const auto kept = deeds_.unsaved().kept_unnamed();
   if (kept.empty()) return;
-  OpenQuestion open;
+  QuestionDesk::Asked open;
   open.question.title = "There are new scenes that were not saved";
   constexpr size_t most = 4;
   for (size_t i = kept.size() - std::min(kept.size(), most); i < kept.size(); ++i) {
@@ -147,47 +139,37 @@ void Application::offer_unnamed_work() {
   open.question.lines.push_back("They are kept until they are saved. Go on with one of them?");
   open.question.choices.push_back({"later", "A new one"});
   open.answers.push_back([] {});
-  ask(std::move(open));
+  question_.ask(std::move(open), ui_);
 }
 
 /// What an earlier run has left of this scene.
 void Application::offer_kept_work() {
   if (scene_.wish.text) return;
   if (scene_.file.unnamed) return offer_unnamed_work();
-  const auto kept = unsaved_.kept();
+  const auto kept = deeds_.unsaved().kept();
   if (!kept) return;
-  ask({{"There are changes of this scene that were not saved",
+  question_.ask(
+      {{"There are changes of this scene that were not saved",
         {fmt::format("They were made {}, and kept when the program ended.", kept->when)},
         {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
-       {[this, text = kept->text] { take_up(text); }, [this] { unsaved_.throw_away(); }, [] {}}});
+       {[this, text = kept->text] { take_up(text); }, [this] { deeds_.unsaved().throw_away(); },
+        [] {}}},
+      ui_);
 }
 
 void Application::ask_to_quit() {
   // What was done just now counts, too.
-  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
-  if (!unsaved_.any() || (question_ && question_->quits)) {
+  deeds_.finish(session(), options_.own_thread);
+  if (!deeds_.unsaved().any() || question_.quits()) {
     quit_ = true;
     return;
   }
-  ask({{"What was changed in this scene is not saved",
-        {"It is kept until this scene is opened again, and offered then."},
-        {{"save", "Save ..."}, {"quit", "Quit"}, {"stay", "Stay"}}},
-       {[this] { save_scene(); }, [this] { quit_ = true; }, [] {}},
-       true});
-}
-
-void Application::ask(OpenQuestion question) {
-  question_ = std::move(question);
-  ui_.hidden = false;
-  ui_.shows(PanelId::question) = true;
-}
-
-void Application::answer(size_t choice) {
-  if (!question_ || choice >= question_->answers.size()) return;
-  const auto act = question_->answers[choice];
-  question_.reset();
-  ui_.shows(PanelId::question) = false;
-  act();
+  question_.ask({{"What was changed in this scene is not saved",
+                  {"It is kept until this scene is opened again, and offered then."},
+                  {{"save", "Save ..."}, {"quit", "Quit"}, {"stay", "Stay"}}},
+                 {[this] { save_scene(); }, [this] { quit_ = true; }, [] {}},
+                 true},
+                ui_);
 }
 
 void Application::change_parameter(const ChangeParameter& change) {
@@ -197,11 +179,11 @@ void Application::change_parameter(const ChangeParameter& change) {
 /// The moments that deeds go back to are of this world. Where another comes in its place, the deeds
 /// become choices of the scene's text: taken back one by one each opens the scene without it.
 std::vector<ChoiceHistory::Step> Application::deeds_as_choices() {
-  const auto deeds = edits_.deeds();
+  const auto deeds = deeds_.edits().deeds();
   std::vector<DeedEdits> edits;
   for (const auto& deed : deeds) edits.push_back(deed.second);
-  const std::vector<std::string> texts =
-      unsaved_.texts_after(session(), edits_.forgotten(), edits, options_.own_thread);
+  const std::vector<std::string> texts = deeds_.unsaved().texts_after(
+      session(), deeds_.edits().forgotten(), edits, options_.own_thread);
   std::vector<ChoiceHistory::Step> out;
   SceneWish wish = scene_.wish;
   for (size_t i = 0; i < texts.size(); ++i) {
@@ -216,43 +198,41 @@ std::vector<ChoiceHistory::Step> Application::deeds_as_choices() {
 /// The scene anew with other numbers, and with what was changed here.
 void Application::choose(const std::vector<std::string>& overrides, std::string what) {
   // What was done just now counts, too.
-  unsaved_.finish(session(), edits_.file_edits(), options_.own_thread);
+  deeds_.finish(session(), options_.own_thread);
   SceneWish before = scene_.wish;
-  if (unsaved_.any()) before.text = unsaved_.text();
+  if (deeds_.unsaved().any()) before.text = deeds_.unsaved().text();
   SceneWish after = before;
   for (const std::string& one : overrides) {
     const std::string path = one.substr(0, one.find('=') + 1);
     std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
     after.overrides.push_back(one);
   }
-  open_as(after, ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after},
-          deeds_as_choices());
+  open_for({ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after},
+            deeds_as_choices()},
+           after);
 }
 
 /// A choice taken back, or made again; false when there is none.
 bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
   if (!choice) return false;
-  const SceneWish wish = choice->wish();
-  open_as(wish, std::move(choice));
+  SceneWish wish = choice->wish();
+  open_for({std::move(choice)}, std::move(wish));
   return true;
 }
 
 /// Shows what saving would write; asked for once more it writes that.
 void Application::save_scene() {
-  if (ui_.shows(PanelId::save) && saver_.preview()) return write_scene(ui_.save_file);
+  if (ui_.shows(PanelId::save) && scene_file_.preview()) return write_scene(ui_.save_file);
   ui_.hidden = false;
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
-  save_named_ = false;
   ui_.save_fault.clear();
-  saver_.prepare(session(), edits_.file_edits(), chosen_numbers(scene_), options_.own_thread);
+  scene_file_.prepare(session(), deeds_.edits().file_edits(), chosen_numbers(scene_),
+                      options_.own_thread);
 }
 
 void Application::write_scene(const std::string& file) {
-  const Status done = file.empty()
-                          ? Status(Error{ErrorCode::invalid_argument, "a name is missing", {}, {}})
-                          : saver_.write(file);
-  if (!done) {
+  if (const Status done = scene_file_.write(file); !done) {
     // The panel stays with what was typed: another name may do.
     ui_.shows(PanelId::save) = true;
     ui_.save_file = file;
@@ -261,17 +241,14 @@ void Application::write_scene(const std::string& file) {
   }
   ui_.shows(PanelId::save) = false;
   ui_.save_fault.clear();
-  scene_.file = saver_.file();
-  choices_.forget();  // the scene without them is no file any more
+  scene_.file = scene_file_.file();
+  deeds_.choices().forget();  // the scene without them is no file any more
   marks_.go_on_as(marked_scene());
   // From now on the scene is that file: opened anew it is what was saved.
   std::error_code none;
   scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
   scene_.wish.text.reset();
-  unsaved_.saved(scene_.file);
-  // What was unpacked is nobody's to change.
-  file_watch_.open(scene_.file.pack.empty() ? scene_.file.path : std::filesystem::path(),
-                   scene_.file.on_disk);
+  deeds_.unsaved().saved(scene_.file);
   ui_.toast(ToastKind::info, "Saved to " + file);
 }
 

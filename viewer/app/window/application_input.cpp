@@ -23,7 +23,7 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   const HeldInput before = pointer_.held();
   const bool search_was_shown = ui_.shows(PanelId::scenes);
   std::vector<InputEvent> for_scene;
-  if (!in_gesture()) gesture_.clear();
+  if (!in_gesture()) deeds_.end_gesture();
   for (const InputEvent& event : events) {
     pointer_.note(event);
     if (const auto* key = std::get_if<KeyPressed>(&event)) {
@@ -47,10 +47,10 @@ void Application::route(std::span<const InputEvent> events, double dt) {
     }
   }
   pointer_.set_placing(ui_.building || (ui_.ruling && ui_.shows(PanelId::ruler)));
-  const auto beside = area_.places() ? second_.view(world_.view()) : std::nullopt;
+  const auto beside = layout_.area.places() ? second_.view(world_.view()) : std::nullopt;
   apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
                         camera(), gestures(), !host_.wants_keys() && !ui_.shows(PanelId::scenes)));
-  if (arranger_.active()) hold_arranged();
+  if (tools_.arranger.active()) hold_arranged();
   pointer_.choose_look(host_, world_.view(), camera_.seen());
 }
 
@@ -78,13 +78,13 @@ bool Application::give_up_gesture() {
   if (pointer_.drag().active()) {
     end_drag();
   } else if (pointer_.tool().arranging()) {
-    const bool moved = arranger_.last().has_value();
+    const bool moved = tools_.arranger.last().has_value();
     pointer_.cancel();
-    arranger_.end();
+    tools_.arranger.end();
     if (moved) take_back();
-  } else if (box_) {
+  } else if (tools_.box) {
     pointer_.cancel();
-    box_.reset();
+    tools_.box.reset();
   } else {
     return false;
   }
@@ -92,7 +92,7 @@ bool Application::give_up_gesture() {
 }
 
 void Application::close_something() {
-  if (question_) return answer(question_->answers.size() - 1);
+  if (question_.open()) return question_.decline(ui_);
   for (const PanelId id : {PanelId::scenes, PanelId::help, PanelId::save})
     if (ui_.shows(id)) {
       ui_.shows(id) = false;
@@ -108,14 +108,14 @@ void Application::close_something() {
                                   [](const Toast& t) { return t.kind == ToastKind::error; });
   if (error != ui_.toasts.rend())
     ui_.toasts.erase(std::next(error).base());
-  else if (builder_.half_way())
-    builder_.cancel();
+  else if (tools_.builder.half_way())
+    tools_.builder.cancel();
   else if (pointer_.tool().free_flight())
     pointer_.set_free_flight(false);
   else if (ui_.building)
     end_building();
-  else if (ruler_.half_way())
-    ruler_.cancel();
+  else if (instruments_.ruler.half_way())
+    instruments_.ruler.cancel();
   else if (ui_.ruling)
     ui_.ruling = false;
   else if (ui_.handles.kind != HandleKind::none)
@@ -133,7 +133,7 @@ void Application::apply(const PointerEffects& effects) {
     return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
   if (ui_.building && effects.selected && !effects.drag_began) {
     // Nobody wants two in one place. The second place of a joint may be that of the first.
-    if (effects.twice && !builder_.half_way()) return;
+    if (effects.twice && !tools_.builder.half_way()) return;
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
@@ -148,7 +148,7 @@ void Application::apply(const PointerEffects& effects) {
   std::optional<ContactPick> contact;
   if (effects.selected && !effects.drag_began && contacts_drawn && !pointer_.is_beside())
     contact = pick_contact(world_.frame(), camera_.seen(), effects.press_x, effects.press_y,
-                           area_.width(), area_.height());
+                           layout_.area.width(), layout_.area.height());
   if (contact) {
     look_into(contact);
   } else if (effects.selected) {
@@ -177,7 +177,7 @@ void Application::apply(const PointerEffects& effects) {
 
 /// The panel opens for what a person selects. In a narrow window it would cover what was clicked.
 void Application::open_inspector() {
-  if (has_two_columns(double(ui_list_.width))) ui_.shows(PanelId::inspector) = true;
+  if (has_two_columns(double(layout_.panels.width))) ui_.shows(PanelId::inspector) = true;
 }
 
 /// What was put down last is selected: now its panel is in nobody's way.
@@ -189,9 +189,9 @@ void Application::end_building() {
 void Application::look_into(const std::optional<ContactPick>& contact) {
   ui_.shows(PanelId::contact) = contact.has_value();
   if (contact)
-    probe_.choose(*contact);
+    instruments_.probe.choose(*contact);
   else
-    probe_.clear();
+    instruments_.probe.clear();
 }
 
 void Application::end_drag() {

@@ -1,5 +1,4 @@
 // The lesson of a scene: pages that set camera, overlays and curves, answers, choices.
-#include "engine/world/world.hpp"
 #include "viewer/app/scenes/scene_lesson.hpp"
 #include "viewer/app/window/application.hpp"
 
@@ -10,11 +9,7 @@ namespace tumble {
 /// Begins with the page that is shown: the first one, or where the same scene was left.
 void Application::begin_lesson() {
   ui_.shows(PanelId::lesson) = scene_.lesson != nullptr;
-  for (const OverlayEntry& entry : all_overlays()) {
-    const auto on = entry.enabled;
-    if (lesson_overlays_.*on && !(scene_.overlays.*on)) ui_.overlays.*on = false;
-  }
-  lesson_overlays_ = {};
+  lesson_overlays_.end(scene_.overlays, ui_.overlays);
   if (scene_.lesson) show_lesson_page(false);
 }
 
@@ -31,21 +26,15 @@ void Application::show_lesson_page(bool turned) {
   ui_.lesson_typed = question ? question->said : "";  // stands beside its verdict
   ui_.lesson_hint = false;
   ui_.content_height[size_t(PanelId::lesson)] = 0;
-  // Those of the page before go; what a person switched on stays.
-  for (const OverlayEntry& entry : all_overlays()) {
-    const auto on = entry.enabled;
-    const bool others = ui_.overlays.*on && !(lesson_overlays_.*on);
-    ui_.overlays.*on = others || wants.overlays.*on;
-    lesson_overlays_.*on = wants.overlays.*on && !others;
-  }
+  lesson_overlays_.turn_to(wants.overlays, ui_.overlays);
   if (wants.view) {
     own_flight_ = false;
     camera_.look_from(*wants.view, world_.view());
   }
   // Opened anew a page has the curves of the pages before it again; turned to, it leaves what is.
   if (!wants.plot.empty() && (wants.plots || !turned)) {
-    measures_.clear();
-    for (const Quantity& q : wants.plot) measures_.add(q, world_.frame());
+    instruments_.measures.clear();
+    for (const Quantity& q : wants.plot) instruments_.measures.add(q, world_.frame());
     ui_.shows(PanelId::measure) = true;
   }
   if (!wants.restart) return;

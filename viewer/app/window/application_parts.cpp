@@ -11,20 +11,20 @@ void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, d
   PartPlace place{at, normal, size, {}};
   if (const auto slot = find_slot(world_.frame(), selection_.main()))
     place.body = world_.frame().info(*slot).name;
-  const auto made = new_parts(kind, place, *parts_.parts());
+  const auto made = new_parts(kind, place, *tools_.parts.parts());
   if (made.empty()) return;
   const auto& [name, part] = made.back();
   const DeedEdits edits = begin_edit("Add " + name);
-  for (const auto& [one_name, one] : made) parts_.expect(one_name, one);
-  session().post([made, edits, parts = parts_.parts(), live = parts_.live(),
-                  refusal = refusal_](World& world) {
+  for (const auto& [one_name, one] : made) tools_.parts.expect(one_name, one);
+  session().post([made, edits, parts = tools_.parts.parts(), live = tools_.parts.live(),
+                  refusal = tools_.refusal](World& world) {
     for (const auto& [one_name, one] : made) {
       if (const Status done = live->set(world, *parts, one_name, one); !done)
         return refusal.say(done.error());
       edits->push_back(AddedPart{one_name, one});
     }
   });
-  parts_.note();
+  tools_.parts.note();
   ui_.part = {std::string(list_of(part)), name};
   ui_.shows(PanelId::parts) = true;
   if (std::holds_alternative<SensorDescription>(part)) ui_.overlays.sensors = true;
@@ -32,27 +32,27 @@ void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, d
 
 void Application::edit_part(const EditPart& edit) {
   const DeedEdits edits = begin_edit(edit.what, true);
-  parts_.expect(edit.name, edit.after);
-  session().post([edit, edits, parts = parts_.parts(), live = parts_.live(),
-                  refusal = refusal_](World& world) {
+  tools_.parts.expect(edit.name, edit.after);
+  session().post([edit, edits, parts = tools_.parts.parts(), live = tools_.parts.live(),
+                  refusal = tools_.refusal](World& world) {
     if (const Status done = live->set(world, *parts, edit.name, edit.after, &edit.before); !done)
       return refusal.say(done.error());
     if (edits->empty()) edits->push_back(ChangedPart{edit.name, edit.before, edit.after});
     if (auto* change = std::get_if<ChangedPart>(&edits->front())) change->after = edit.after;
   });
-  parts_.note();
+  tools_.parts.note();
 }
 
 void Application::remove_part(const RemovePart& removal) {
   const Removal deed = begin_removal("Delete " + removal.name);
-  parts_.expect(removal.name, removal.part, true);
-  session().post([removal, deed, live = parts_.live()](World& world) {
+  tools_.parts.expect(removal.name, removal.part, true);
+  session().post([removal, deed, live = tools_.parts.live()](World& world) {
     // What broke or was restarted away is in the file all the same.
     (void)live->remove(world, removal.name, removal.part);
     deed.take(world, RemovedPart{removal.name, removal.part});
     deed.finish(world);
   });
-  parts_.note();
+  tools_.parts.note();
 }
 
 /// Emitters have nothing that could be seen: a cross where they are, and an arrow along which they
@@ -60,7 +60,7 @@ void Application::remove_part(const RemovePart& removal) {
 void Application::draw_emitters() {
   if (!ui_.shows(PanelId::parts) && !ui_.shows(PanelId::build)) return;
   const Frame& frame = world_.frame();
-  for (const auto& [name, d] : parts_.parts()->emitters.items) {
+  for (const auto& [name, d] : tools_.parts.parts()->emitters.items) {
     Pose pose = d.placement.pose();
     if (!d.carrier.empty()) {
       const Vec3* at = nullptr;

@@ -2,23 +2,10 @@
 #include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/app/window/application.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace tumble {
-
-/// Of a scene that is about to be shown.
-void Application::begin_replay(const OpenedScene& scene) {
-  replay_deeds_ = scene.replay ? scene.replay->deeds() : 0;
-  SceneRequest began;
-  began.scene = scene.wish.scene;
-  began.overrides = scene.wish.overrides;
-  if (!scene.file.text.empty()) began.text = scene.file.text;
-  began.threads = options_.threads;
-  replay_saver_.open({std::move(began), chosen_numbers(scene)});
-}
 
 /// Nobody has done anything else to the world than the replay that is played into it.
 bool Application::follows_replay() const {
@@ -43,10 +30,9 @@ void Application::look_at_replay() {
   if (scene_.replay) {
     tell_of_replay();
     // What it does may be a change of settings.
-    if (const uint64_t deeds = scene_.replay->deeds(); deeds != std::exchange(replay_deeds_, deeds))
-      settings_.fetch(session(), follows_replay());
+    if (replay_.has_done_more(*scene_.replay)) settings_.fetch(session(), follows_replay());
   }
-  const auto saved = replay_saver_.take();
+  const auto saved = replay_.saver().take();
   if (!saved) return;
   if (!*saved)
     return ui_.toast(ToastKind::error, "The replay cannot be saved", {saved->error().text()});
@@ -62,11 +48,11 @@ void Application::look_at_replay() {
 
 /// From the beginning to the moment that is shown.
 void Application::save_replay(bool packed) {
-  if (replay_saver_.busy()) return ui_.toast(ToastKind::info, "A replay is being saved already");
+  if (replay_.saver().busy()) return ui_.toast(ToastKind::info, "A replay is being saved already");
   if (packed && options_.own_thread)
     ui_.toast(ToastKind::info, "The replay is played once to be sure, and packed");
-  replay_saver_.save(session(),
-                     {options_.capture_folder, scene_.name, packed, options_.own_thread});
+  replay_.saver().save(session(),
+                       {options_.capture_folder, scene_.name, packed, options_.own_thread});
 }
 
 }  // namespace tumble

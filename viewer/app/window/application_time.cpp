@@ -81,11 +81,7 @@ void Application::change_marks(const std::function<void(SceneMarks&)>& change) {
   marks_.change(change);
   std::string what = mark_deed(*before, marks_.marks(), marks_.clock());
   if (what.empty()) return;
-  const bool goes_on = in_gesture() && gesture_ == what && edits_.last() == what;
-  gesture_ = in_gesture() ? what : std::string();
-  if (goes_on) return;  // a name that is being typed
-  choices_.forget_taken_back();
-  edits_.note_beside(std::move(what), [this, before] {
+  deeds_.begin_beside(std::move(what), in_gesture(), [this, before] {
     marks_.change([&](SceneMarks& marks) {
       std::swap(marks.time.bookmarks, before->time.bookmarks);
       std::swap(marks.flight, before->flight);
@@ -135,7 +131,7 @@ void Application::toggle_loop() {
   std::optional<TickSpan> span = time.span;
   if (!span)
     span = time.span_about(world_.frame().tick, session().counters().first_tick,
-                           std::max(newest_tick_, world_.frame().tick));
+                           std::max(deeds_.newest_tick(), world_.frame().tick));
   if (!span)
     return ui_.toast(ToastKind::info, "There is no span of time to loop yet",
                      {"Let some time pass, then Shift + drag on the line of time."});
@@ -222,7 +218,7 @@ void Application::fly() {
 
 /// The plot as a picture of its own, in the colours of the panels.
 void Application::save_plot() {
-  if (measures_.series().empty()) return;
+  if (instruments_.measures.series().empty()) return;
   constexpr double width = 960, height = 600;
   // One of its own, with the same letters: the panels keep what has the keyboard.
   UiHost page_host;
@@ -235,10 +231,10 @@ void Application::save_plot() {
   draw_plot_page(context, float(width), float(height));
   RenderScene page;
   page.ground.visible = false;
-  page.ui_scale = float(size_.scale);
+  page.ui_scale = float(layout_.size.scale);
   page_host.end(page.ui);
-  const auto drawn = canvas_.renderer().render(page, int(std::lround(width * size_.scale)),
-                                               int(std::lround(height * size_.scale)));
+  const auto drawn = canvas_.renderer().render(page, int(std::lround(width * layout_.size.scale)),
+                                               int(std::lround(height * layout_.size.scale)));
   if (!drawn)
     return ui_.toast(ToastKind::error, "The plot cannot be drawn", {drawn.error().text()});
   const auto saved = screenshots_.save(canvas_.renderer(), scene_.name + "-plot");
@@ -251,9 +247,9 @@ void Application::save_plot() {
 /// A click while the ruler is out.
 void Application::rule_at(const std::optional<Pick>& hit) {
   if (!hit) return ui_.toast(ToastKind::info, "The ruler begins and ends on a surface");
-  if (ruler_.full())
+  if (instruments_.ruler.full())
     return ui_.toast(ToastKind::info, "There is room for no more readings: close one first");
-  (void)ruler_.click(world_.view(), *hit, ui_.ruling_angle);
+  (void)instruments_.ruler.click(world_.view(), *hit, ui_.ruling_angle);
 }
 
 /// True when the action was one of these.
@@ -293,7 +289,7 @@ bool Application::perform_in_time(Action action) {
     case Action::toggle_ruler:
       flip_panel(PanelId::ruler);
       ui_.ruling = ui_.shows(PanelId::ruler);
-      ruler_.cancel();
+      instruments_.ruler.cancel();
       return true;
     default:
       return false;
@@ -307,7 +303,7 @@ bool Application::apply_in_time(const UiRequest& request) {
   } else if (const auto* moment = std::get_if<GoToMoment>(&request)) {
     go_to_moment(moment->tick);
   } else if (const auto* reading = std::get_if<RemoveReading>(&request)) {
-    ruler_.remove(reading->index);
+    instruments_.ruler.remove(reading->index);
   } else if (const auto* key = std::get_if<RemoveFlightKey>(&request)) {
     change_flight([&](std::vector<CameraKey>& keys) {
       if (key->index < keys.size()) keys.erase(keys.begin() + std::ptrdiff_t(key->index));
@@ -315,7 +311,8 @@ bool Application::apply_in_time(const UiRequest& request) {
   } else if (const auto* followed = std::get_if<FollowFromKey>(&request)) {
     follow_from_key(*followed);
   } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {
-    if (scene_.quantities) measures_.add(scene_.quantities->find(curve->name), world_.frame());
+    if (scene_.quantities)
+      instruments_.measures.add(scene_.quantities->find(curve->name), world_.frame());
   } else if (std::holds_alternative<WritePlot>(request)) {
     plot_wanted_ = true;
   } else {

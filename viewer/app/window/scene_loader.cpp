@@ -1,7 +1,5 @@
 #include "viewer/app/window/scene_loader.hpp"
 
-#include "engine/world/world.hpp"
-
 #include <fmt/format.h>
 
 namespace tumble {

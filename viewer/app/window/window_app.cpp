@@ -1,6 +1,5 @@
 #include "viewer/app/window/window_app.hpp"
 
-#include "engine/world/world.hpp"
 #include "viewer/app/window/status_file.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/stop_signal.hpp"

@@ -1,0 +1,38 @@
+#pragma once
+#include "viewer/app/session/contact_probe.hpp"
+#include "viewer/app/session/event_watch.hpp"
+#include "viewer/app/session/microscope_probe.hpp"
+#include "viewer/app/window/microscope_desk.hpp"
+#include "viewer/app/window/ruler.hpp"
+#include "viewer/ui/history.hpp"
+#include "viewer/ui/measures.hpp"
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace tumble {
+
+/// What a person watches a run by.
+struct Instruments {
+  History history;
+  Measures measures;
+  Ruler ruler;
+  std::shared_ptr<EventWatch> events;  ///< of the world that is shown
+  ContactProbe probe;
+  MicroscopeDesk microscope;
+  MicroscopeProbe microscope_probe;
+
+  /// Another world is shown, of which nothing was seen yet.
+  void open(std::optional<MicroscopeSetup> of_scene) {
+    history.clear();
+    measures.clear();
+    ruler.forget();
+    events = std::make_shared<EventWatch>();
+    probe.clear();
+    microscope.open(std::move(of_scene));
+    microscope_probe.clear();
+  }
+};
+
+}  // namespace tumble

@@ -1,0 +1,32 @@
+#pragma once
+#include "viewer/app/window/view_area.hpp"
+#include "viewer/render/ui_draw_list.hpp"
+#include "viewer/ui/ui_rect.hpp"
+
+namespace tumble {
+
+/// The window's picture under way: how large it is, and where in it panels and world stand.
+struct PictureLayout {
+  struct Size {
+    int width = 1280, height = 800;  ///< [px]
+    double scale = 1;                ///< pixels per UI unit
+    double display_period = 0;       ///< of what it is shown on; 0: not known [s]
+  };
+  Size size{0, 0, 1, 0};
+  UiDrawList panels;
+  UiRect free_area;  ///< of the scene, between the panels [UI units]
+  ViewArea area;     ///< of its picture, or both pictures
+
+  /// Where the world's picture stands, `beside` that of another world or alone.
+  ViewArea area_in(const UiRect& free, bool beside) const {
+    return beside ? ViewArea::beside(size.width, size.height, size.scale, free)
+                  : ViewArea(size.width, size.height, size.scale);
+  }
+  /// Without any panels [UI units].
+  UiRect all() const {
+    return {0, 0, float(size.width / size.scale), float(size.height / size.scale)};
+  }
+  float pixels(float units) const { return units * float(size.scale); }
+};
+
+}  // namespace tumble
