@@ -19,14 +19,15 @@ class StopFlag {
     const int64_t state = state_.load(std::memory_order_relaxed);
     return state != quiet && come(state);
   }
-  /// After request_after(): looks that are left; 0 once the request has come.
+  /// After request_after(): looks that are left; below 0 how many have seen the request since.
   int64_t looks_left() const noexcept;
 
  private:
   static constexpr int64_t quiet = 0, requested_now = -1;
   bool come(int64_t state) const noexcept;
 
-  /// quiet, requested_now, or one more than the looks that are left.
+  /// quiet, requested_now, one more than the looks that are left, or, below requested_now, by how
+  /// many looks a request that came was seen.
   mutable std::atomic<int64_t> state_{quiet};
   static_assert(std::atomic<int64_t>::is_always_lock_free);  // signal handlers may store
 };

@@ -2,6 +2,7 @@
 // every workload as an independent program makes them (workload_figures.hpp, twelve digits); for
 // the balls of W4 also a second writing of the generator and the layout, bit by bit.
 #include "engine/collision/shapes/convex_hull.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/scene/workloads/run.hpp"
 #include "tests/scene/workload_figures.hpp"
 #include "tests/support/scale.hpp"
@@ -235,11 +236,17 @@ TEST_CASE("times of steps are summed up by rank") {
   CHECK(step_times({}).most == 0);
 }
 
-TEST_CASE("a run that is stopped counts what it has done") {
+TEST_CASE("a run that is stopped ends before the next step is done, and measures nothing") {
   WorkloadOptions options;
-  int asked = 0;
-  options.stopped = [&asked] { return ++asked > 3; };
+  StopFlag stop;
+  uint64_t done = 0;
+  options.stop = &stop;
+  options.each = [&](const StepReport& report, double, double) {
+    done = report.tick;
+    if (done == 3) stop.request();
+  };
   const auto run = run_workload(make_workload(all_workloads()[1], true), options);
-  REQUIRE(run.ok());
-  CHECK(run->steps == 3);
+  REQUIRE_FALSE(run.ok());
+  CHECK(run.error().code == ErrorCode::cancelled);
+  CHECK(done == 3);
 }

@@ -80,6 +80,7 @@ struct EventContext {
   size_t max_untied_bodies = tolerances::untied_bodies;
   EventSearchTrace* search = nullptr;     ///< null: nobody looks
   TimeStepping* time_stepping = nullptr;  ///< null: a group without events' solution is an error
+  double budget_share = 1;                ///< of the budget, which a group may spend [-]
 
   /// By slot: the greatest rate at which springs make a body swing or creep; none behind the end
   /// [1/s].

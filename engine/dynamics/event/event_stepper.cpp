@@ -121,16 +121,20 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     if (!g.joints.empty()) g.laid_out = &laid_out_[g.joints.front()];
   for (BodyGroup& g : groups_)
     any |= g.scattered = !g.time_stepped && GroupWindows::scattered(g, context);
+  EventContext of_retries = context;
+  of_retries.budget_share = tolerances::retried_share;
   if (any) window_reaches_.reset(bodies.size());
   crew.each(groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
     if (stop_requested() || group.time_stepped) return;
+    const bool again = std::ranges::any_of(
+        group.bodies, [this](uint32_t slot) { return time_stepped[slot].last > 0; });
+    const EventContext& given = again ? of_retries : context;
     if (group.scattered)
-      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, context, crew)
+      done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, given, crew)
                     .advance({0, h, h}, counted_[i]);
     else
-      done[i] =
-          EventGroup(bodies, group, block_of_, forces, context).advance({0, h, h}, counted_[i]);
+      done[i] = EventGroup(bodies, group, block_of_, forces, given).advance({0, h, h}, counted_[i]);
   });
   note_spent();
   for (size_t i = 0; i < groups_.size(); ++i) {

@@ -11,8 +11,8 @@
 
 namespace tumble {
 
-/// What a body remembers of ticks that were too much for its group. Trying costs as much as the
-/// budget, so each time it fails again twice as many ticks are time-stepped without a try.
+/// What a body remembers of ticks that were too much for its group. Trying costs a good share of
+/// the budget, so each time it fails again twice as many ticks are time-stepped without a try.
 struct TimeSteppedTicks {
   uint8_t left = 0;  ///< to be time-stepped without a try
   uint8_t last = 0;  ///< how many they were the last time; 0 after a tick of events

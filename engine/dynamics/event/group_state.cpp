@@ -37,7 +37,7 @@ uint64_t EventContext::allowed_work(std::span<const RigidBody> bodies,
   uint64_t shares = 0;
   for (const uint32_t slot : slots)
     shares += is_particle(bodies[slot]) ? 1 : prices::body_in_particles;
-  const double one = double(settings.budget) * double(prices::event);
+  const double one = budget_share * double(settings.budget) * double(prices::event);
   const double many = std::max(1.0, double(shares) / double(prices::body_in_particles));
   return uint64_t(one * many * std::sqrt(std::min(1.0, tick / prices::whole_tick)));
 }

@@ -269,7 +269,7 @@ int NetSystem::correct(std::span<const Vec3> r, double target) {
   double ry = dot(residual_, y_);
   int steps = 0;
   while (steps < tolerances::most_mesh_net_steps && ry > target * target) {
-    if (steps % 64 == 63 && stop_requested()) break;
+    if (stop_requested()) break;
     apply(p_, product_);
     for (const uint32_t k : held_) {
       Float4& at = product_[pattern_.of_node[k].moves];

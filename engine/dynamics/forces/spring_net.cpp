@@ -42,7 +42,7 @@ class NetSolver {
     while (report.iterations < tolerances::most_net_iterations) {
       report.residual = residual(r_);
       if (!(report.residual > tolerances::net_residual) || !(ry > 0)) break;
-      if (report.iterations % 64 == 63 && stop_requested()) break;
+      if (stop_requested()) break;
       multiply(p_, product_);
       const double alpha = ry / p_.dot(product_);
       change_ += alpha * p_;

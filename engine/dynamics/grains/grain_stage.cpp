@@ -102,6 +102,7 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
             part(tick, touches, tick.h * k / parts, tick.h * (k + 1) / parts, substeps, report);
         !done)
       return done;
+  if (stop_requested()) return stopped_error();
   grains_.give_back(tick);
   age(tick);
   rest_.watch(tick, grains_, start_, pairs_, memory_.forces(), bodies_, report);
@@ -114,9 +115,11 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
                         int substeps, GrainReport& report) {
   const double h = t1 - t0, hs = h / substeps;
   if (Status found = finder_.find(tick, grains_, h, pairs_); !found) return found;
+  if (stop_requested()) return stopped_error();
   shapes_.touch(tick, grains_, t0, t1, touching_);
   bodies_.make_rows(tick, grains_, shapes_, touching_, report);
   memory_.recall(tick, grains_, touches, pairs_, bodies_.walls(), bodies_.held(), hs);
+  if (stop_requested()) return stopped_error();
   bundles_.lay_out(pairs_, grains_, tick.crew);
   bundles_.fill(tick, pairs_, grains_, memory_.forces(), hs);
   find_touched();
@@ -125,10 +128,12 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
       {grains_.points, grains_.movers, grains_.acceleration, touched_, bundles_, bodies_.all(),
        bodies_.walls(), bodies_.held(), tick.settings.restitution_threshold},
       substeps, hs, tick.crew);
+  if (stop_requested()) return stopped_error();
   auto held = shapes_.hold_back(tick, grains_, from_, t0, t1);
   if (!held) return held.error();
   report.held += *held;
   count(work, report);
+  if (stop_requested()) return stopped_error();
   bundles_.read(memory_.forces(), hs, tick.crew);
   memory_.store(tick, grains_, pairs_, bodies_.walls(), bodies_.held(), hs, touches);
   for (const uint32_t i : memory_.lost()) wake_again(tick, i);

@@ -91,8 +91,10 @@ class SweepGrains {
       r_.points[i].x += hs_ * v;
     }
   }
+  // Each pass over all asks whether to go on; what a stopped one leaves is thrown away.
   template <class F>
   void blocks(const F& f) {
+    if (stop_requested()) return;
     for_chunks(
         crew_, r_.pairs.blocks(),
         [&](size_t, size_t first, size_t last) {
@@ -102,7 +104,8 @@ class SweepGrains {
   }
   template <class F>
   void between(const F& f) {
-    for (const GrainRange& colour : r_.pairs.between())
+    for (const GrainRange& colour : r_.pairs.between()) {
+      if (stop_requested()) return;
       for_chunks(
           crew_, colour.end - colour.begin,
           [&](size_t chunk, size_t first, size_t last) {
@@ -110,10 +113,12 @@ class SweepGrains {
               work_[r_.pairs.blocks() + chunk]);
           },
           least_of_colour);
+    }
   }
   /// Bodies that give way first, one row after the other; the rest by grains.
   template <class F>
   void with_walls(const F& f) {
+    if (stop_requested()) return;
     f(r_.held);
     for_chunks(crew_, r_.walls.size(), [&](size_t, size_t first, size_t last) {
       // Rows of one grain stay together.

@@ -96,8 +96,10 @@ class FluidTickRun {
     const double skin = tolerances::list_skin * s.kernel.reach();
     const bool lasts = !last && 2 * way_ < skin;
     if (Status found = find_neighbours(s, particles_.x, lasts ? skin : 0); !found) return found;
+    if (stop_requested()) return stopped_error();
     take();
     find_surroundings(s);
+    if (stop_requested()) return stopped_error();
     const bool implicit = s.common.solver == FluidSolverKind::dfsph;
     if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });
@@ -109,10 +111,12 @@ class FluidTickRun {
     pull_surfaces(s);
     solve_viscosity(s);
     smooth_velocities(s);
+    if (stop_requested()) return stopped_error();
     if (implicit)
       solve_pressure(s);
     else
       press_by_state(s, sound_);
+    if (stop_requested()) return stopped_error();
     keep_clear_of_walls(s);
     if (implicit)
       shift_particles(s);

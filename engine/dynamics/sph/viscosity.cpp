@@ -1,3 +1,4 @@
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/sph/fluid_state.hpp"
 
 #include <cmath>
@@ -83,7 +84,8 @@ class ViscousSolve {
     const double enough =
         tolerances::viscous_residual * tolerances::viscous_residual *
         s.sum([&](size_t p) { return s.volume[p] * s.density[p] * s.v[p].squaredNorm(); });
-    for (int n = 0; n < tolerances::most_viscous_iterations && squared > enough; ++n) {
+    for (int n = 0;
+         n < tolerances::most_viscous_iterations && squared > enough && !stop_requested(); ++n) {
       apply();
       const double curve =
           s.sum([&](size_t p) { return s.volume[p] * direction_[p].dot(image_[p]); });

@@ -54,11 +54,9 @@ Status run_steps(World& world, int steps, const WorkloadOptions& options, Tally&
   const auto start = Clock::now();
   world.stop_with(options.stop);
   for (int i = 0; i < steps; ++i) {
-    if (options.stopped && options.stopped()) break;
     const double begin = seconds_since(start), cpu_begin = processor_seconds();
     const auto report = world.step();
     const double wall = seconds_since(start) - begin, cpu = processor_seconds() - cpu_begin;
-    if (!report && report.error().code == ErrorCode::cancelled) break;
     if (!report) return report.error();
     tally.add(report->stats, wall, cpu);
     if (options.each) options.each(*report, begin, wall);

@@ -14,10 +14,11 @@ struct StepReport;
 
 struct WorkloadOptions {
   WorldSettings settings;
-  int threads = 1;                 ///< 0: one per core
-  std::optional<int> steps;        ///< instead of the workload's
-  std::function<bool()> stopped;   ///< asked before every step, if there
-  const StopFlag* stop = nullptr;  ///< of the world: see World::stop_with()
+  int threads = 1;           ///< 0: one per core
+  std::optional<int> steps;  ///< instead of the workload's
+  /// Of the world, see World::stop_with(): a run that is stopped measures nothing, and ends with an
+  /// error of code `cancelled`.
+  const StopFlag* stop = nullptr;
   /// Told of every step: when it began, after the first one, and how long it took [s].
   std::function<void(const StepReport&, double begin, double seconds)> each;
   LogSink log;

@@ -83,8 +83,8 @@ int run_all(const BenchLine& line, const std::vector<const WorkloadEntry*>& entr
     for (const WorkloadEntry* entry : entries) {
       start = end;
       auto run = run_workload(make_workload(*entry, line.small), options);
+      if (options.stop->requested()) return code;
       if (!run) return report(named(*entry, run.error()), exit_broken_down);
-      if (options.stopped()) return code;
       if (line.prints_table() && line.repeat == 1) fmt::print("{}", bench_row(*run));
       std::fflush(stdout);
       if (!results.add(*std::move(run)))
@@ -113,7 +113,6 @@ int run_bench(const BenchLine& line) {
   options.settings = *settings;
   options.threads = line.threads;
   options.steps = line.steps;
-  options.stopped = [&stop] { return stop.requested(); };
   options.stop = &stop.flag();
   options.log = stderr_log(LogLevel::warning);
   if (line.prints_table()) fmt::print("{}", bench_head());
