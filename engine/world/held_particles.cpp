@@ -41,12 +41,16 @@ void add_hold(const WorldState& s, const Contact& c, std::vector<HeldParticle>& 
   if (!(pressed > 0)) return;
   HeldParticle held{side.system, side.index, {}};
   held.hold.presses = true;
-  held.hold.sticks = rubbed.norm() < tolerances::near_slipping * c.friction * pressed;
   held.hold.normal = b.particle ? c.normal : Vec3(-c.normal);
   held.hold.friction = c.friction;
   const Vec3 surface = p.x[side.index] - p.radius[side.index] * held.hold.normal;
   const Vec3 belt = a.particle ? Vec3(-c.surface_velocity) : c.surface_velocity;
-  held.hold.dv = body.velocity_at(surface) - belt - p.v[side.index];
+  held.hold.dv = body.velocity_at(surface) + belt - p.v[side.index];
+  // It sticks where friction had something left in the tick before, and can stop what slip there is
+  // in one.
+  const Vec3 slip = held.hold.dv - held.hold.dv.dot(held.hold.normal) * held.hold.normal;
+  held.hold.sticks = rubbed.norm() < tolerances::near_slipping * c.friction * pressed &&
+                     p.mass[side.index] * slip.norm() <= c.friction * pressed;
   out.push_back(held);
 }
 

@@ -1,7 +1,7 @@
 // Cloths, ropes and nets in a world, under both steppers. References: closed forms (the catenary;
 // the stretch rho g L^2 / 2E of a hanging sheet; the bending of a clamped strip, rho g L^4 / 8D;
-// the period 4 pi/j0 sqrt(L/g) of a hanging chain, D. Bernoulli 1732); momenta that nothing
-// changes; a world that was saved and loaded; sums of the books.
+// the period 4 pi/j0 sqrt(L/g) of a hanging chain, D. Bernoulli 1732; v - mu g t of what slides);
+// momenta that nothing changes; a world that was saved and loaded; sums of the books.
 #include "engine/dynamics/forces/weave.hpp"
 #include "tests/support/test_world.hpp"
 
@@ -313,4 +313,83 @@ TEST_CASE("a cloth drapes over a ball and stays there" * doctest::test_suite("lo
   CHECK(p.x[10 * 21 + 10].y() == doctest::Approx(0.8 + p.radius[0]).epsilon(0.01));
   CHECK(deepest < 0.25 * p.radius[0]);
   CHECK(speed < 0.3);
+}
+
+namespace {
+
+/// A cloth that lies flat on the ground, which is a belt of that speed along x; gives the greatest
+/// elastic energy at the end of any tick [J], and the mean velocities along x [m/s].
+struct Slide {
+  double elastic = 0;
+  std::vector<double> speed;
+};
+Slide slide(int hz, double stretch, double friction, double speed, double belt, int ticks) {
+  TestWorld w(settings("realtime", hz));
+  BodyDef ground;
+  ground.type = BodyType::fixed;
+  ShapeDef plane;
+  plane.type = ShapeType::half_space;
+  Material material;
+  material.friction = friction;
+  material.surface_velocity = Vec3(belt, 0, 0);
+  ground.shapes.push_back({plane, {}, material});
+  w.add(ground);
+  ClothDef d = loose_cloth(9);
+  d.stretch = stretch;
+  d.shear = 0.4 * stretch;
+  Weave weave = made(weave_cloth(d));
+  for (ParticleDef& p : weave.particles) {
+    p.x.y() = p.radius;
+    p.v = Vec3(speed, 0, 0);
+  }
+  ParticleSystemDef def;
+  def.particles = weave.particles;
+  def.friction = friction;
+  const auto id = w->create_particles(def);
+  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  w.apply();
+  w.force(tie(std::move(weave), *id, 1));
+  Slide out;
+  for (int tick = 0; tick < ticks; ++tick) {
+    w.step();
+    out.elastic = std::max(out.elastic, w->frame()->stats.energies.springs);
+    double sum = 0;
+    for (const Vec3& v : w->particles(*id)->v) sum += v.x();
+    out.speed.push_back(sum / double(w->particles(*id)->size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a cloth slides over the ground as a block does, and stays flat") {
+  // It has about 0.03 J of kinetic energy at 1 m/s, of which waves would make elastic energy.
+  for (const int hz : {60, 240, 960})
+    for (const double stretch : {20.0, 200.0, 5000.0})
+      for (const double friction : {0.05, 0.4}) {
+        CAPTURE(hz);
+        CAPTURE(stretch);
+        CAPTURE(friction);
+        const int ticks = hz / 4;
+        const Slide s = slide(hz, stretch, friction, 1, 0, ticks);
+        CHECK(s.elastic < 1e-6);
+        for (int tick = 2; tick < ticks; ++tick) {
+          const double left = std::max(0.0, 1 - friction * 9.81 * (tick + 1) / hz);
+          CHECK(s.speed[size_t(tick)] == doctest::Approx(left).epsilon(0.02));
+        }
+      }
+}
+
+TEST_CASE("a belt takes a cloth along by friction until it moves as the belt does") {
+  for (const int hz : {60, 240}) {
+    CAPTURE(hz);
+    const double friction = 0.4, belt = 1;
+    const int ticks = hz / 2;
+    const Slide s = slide(hz, 200, friction, 0, belt, ticks);
+    CHECK(s.elastic < 1e-6);
+    for (int tick = 2; tick < ticks; ++tick) {
+      const double reached = std::min(belt, friction * 9.81 * (tick + 1) / hz);
+      CHECK(s.speed[size_t(tick)] == doctest::Approx(reached).epsilon(0.02));
+    }
+  }
 }

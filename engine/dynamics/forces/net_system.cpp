@@ -310,8 +310,16 @@ void NetSystem::solve(const SpringNet& net, SpringNet::Answer& out) {
   for (int round = 0; round < tolerances::most_mesh_net_rounds; ++round) {
     residual(r_);
     if (round > 0) let_go(r_);
+    impulses_ = r_;
     project(r_);
-    const double left = size(r_);
+    double left = size(r_);
+    // Holds are looked at when the rest is solved: where they take all, at once.
+    if (round == 0 && left <= tolerances::mesh_net_residual * size(impulses_) &&
+        let_go(impulses_)) {
+      r_ = impulses_;
+      project(r_);
+      left = size(r_);
+    }
     if (round == 0) {
       std::vector<Vec3> weight(pattern_.blocks, Vec3::Zero());
       for (size_t k = 0; k < net.nodes.size(); ++k)

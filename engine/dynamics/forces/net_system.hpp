@@ -55,7 +55,7 @@ class NetSystem {
   std::vector<uint32_t> held_;             ///< nodes that are held
   std::vector<uint8_t> presses_, sticks_;  ///< by node, as taken now
   std::vector<Vec3> change_;               ///< of the velocities, by block
-  std::vector<Vec3> r_;
+  std::vector<Vec3> r_, impulses_;         ///< the residual: projected, and whole
   std::vector<Float4> residual_, y_, p_, product_, correction_;
 };
 
