@@ -165,8 +165,8 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
     p.surface_two_sided[fine] = maker.make("surface_two_sided", d, "surface.vert", fragment);
     d.blend = Blend::premultiplied;
     d.depth_write = false;
-    p.surface_blended[fine] = maker.make("surface_blended", d, "surface.vert",
-                                         fine ? "glass_fine.frag" : "glass.frag");
+    p.surface_blended[fine] =
+        maker.make("surface_blended", d, "surface.vert", fine ? "glass_fine.frag" : "glass.frag");
   }
   for (const size_t fine : {0u, 1u}) {
     d = surface_desc();
