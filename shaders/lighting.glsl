@@ -63,12 +63,15 @@ vec3 lit_picture_colour(Place place, vec3 n, vec3 base, vec3 look) {
 }
 
 // The same, times how much it covers, of what is seen through: its opacity is that of the matter, what
-// it mirrors lies over that.
+// it mirrors of the sky lies over that, and the sun over all. No layer is brighter than it covers, so
+// that nothing has to be cut off where they are laid over others.
 vec4 lit_glass(Place place, vec3 n, vec3 base, float opacity, vec3 look) {
   Reflected light = light_of(place, n, base, look);
   vec3 through = 1.0 - light.mirrors;
   vec3 matter = opacity * through * with_haze(picture_colour(light.matter), light.distance);
   vec3 mirror = light.mirrors * with_haze(picture_colour(light.sky), light.distance);
-  float left = (1.0 - opacity) * dot(through, vec3(0.333));
-  return vec4(matter + mirror + picture_colour(light.sparkle), 1.0 - left);
+  float left = (1.0 - opacity) * min(through.r, min(through.g, through.b));
+  vec3 sparkle = picture_colour(light.sparkle);
+  float beside = 1.0 - max(sparkle.r, max(sparkle.g, sparkle.b));
+  return vec4(sparkle + beside * (matter + mirror), 1.0 - beside * left);
 }
