@@ -17,6 +17,7 @@
 #include "engine/world/tolerances.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace tumble {
 namespace {

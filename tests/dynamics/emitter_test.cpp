@@ -9,6 +9,7 @@
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

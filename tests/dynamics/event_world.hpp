@@ -4,6 +4,7 @@
 #include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace tumble::test {

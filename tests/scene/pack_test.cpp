@@ -10,6 +10,7 @@
 #include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>

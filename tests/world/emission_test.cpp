@@ -4,6 +4,7 @@
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -33,8 +33,8 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
   side.friction = of_body.material.friction;
   side.restitution = of_body.material.restitution;
   if (!side.particle) {
-    side.rolling_friction = of_body.material.rolling_friction;
-    side.torsional_friction = of_body.material.torsional_friction;
+    side.rolling_friction = of_body.material.rolling_arm();
+    side.torsional_friction = of_body.material.torsional_arm();
   }
   if (!of_body.material.surface_velocity.isZero(0))
     side.belt = body.pose.direction(of_body.material.surface_velocity);

@@ -5,6 +5,7 @@
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/app/scenes/lesson_check.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <doctest/doctest.h>
