@@ -14,6 +14,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 #include "tests/support/convex_pieces.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -231,7 +232,7 @@ TEST_CASE("exact pieces are convex, disjoint and add up, their number is near th
   for (const Solid& s : solids()) {
     CAPTURE(s.name);
     const auto d = decompose_exactly(s.mesh);
-    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    REQUIRE_MESSAGE(d.ok(), test::why_not(d));
     check_partition(*d, s.mesh);
     CHECK(d->pieces.size() <= s.most_pieces);
   }
@@ -301,6 +302,29 @@ TEST_CASE("open, crossing and flat meshes are refused with the reason, and limit
   CHECK(decompose_exactly(cup()).error().code == ErrorCode::cancelled);
 }
 
+TEST_CASE("a decomposition is stopped anywhere, and soon") {
+  // Looks count what it does between them: it asks before each hull, sample and candidate.
+  const AabbTree torus(std::make_shared<const TriangleMesh>(make_mesh::torus(0.5, 0.2, 24, 12)));
+  StopFlag flag;
+  const Stoppable stoppable(&flag);
+  constexpr int64_t plenty = int64_t{1} << 40;
+  flag.request_after(plenty);
+  REQUIRE(decompose_approximately(torus, {.concavity = 0.03, .max_pieces = 12}).ok());
+  const int64_t looks = plenty - flag.looks_left();
+  CHECK(looks > 2000);
+  int64_t worst = 0;
+  for (int k = 0; k < 12; ++k) {
+    flag.request_after(looks * k / 12);
+    CAPTURE(k);
+    const auto stopped = decompose_approximately(torus, {.concavity = 0.03, .max_pieces = 12});
+    REQUIRE_FALSE(stopped.ok());
+    CHECK(stopped.error().code == ErrorCode::cancelled);
+    worst = std::max(worst, -flag.looks_left());
+  }
+  CHECK(worst < 1000);
+  MESSAGE(looks, " looks, ", worst, " after a request");
+}
+
 TEST_CASE("approximate pieces keep the bound and all of the mesh, with any number of threads") {
   for (const auto& [name, mesh, bound, most, ratio] :
        {std::tuple{"torus", make_mesh::torus(0.5, 0.2, 24, 12), 0.03, size_t{12}, 1.081},
@@ -316,7 +340,7 @@ TEST_CASE("approximate pieces keep the bound and all of the mesh, with any numbe
     ApproximateDecompositionOptions options;
     options.concavity = bound;
     const auto d = decompose_approximately(tree, options);
-    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    REQUIRE_MESSAGE(d.ok(), test::why_not(d));
     CHECK(d->pieces.size() <= most);
     CHECK(d->hull_volume / d->mesh_volume < ratio);
     CHECK(std::fabs(d->solid_volume / d->mesh_volume - 1) < 1e-5);
