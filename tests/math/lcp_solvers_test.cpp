@@ -6,6 +6,7 @@
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,7 +25,7 @@ const LcpSolverEntry& lcp_solver(std::string_view name) {
 
 LcpSolution lcp_solve(std::string_view name, const LcpProblem& p, LcpOptions options = {}) {
   auto s = lcp_solver(name).solve(p, options);
-  REQUIRE_MESSAGE(s.ok(), (s ? std::string() : s.error().text()));
+  REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   CHECK(s->report.solver == name);
   CHECK(s->z.size() == p.size());
   CHECK(s->report.residual == validate(p, s->z).worst());

@@ -1,6 +1,7 @@
 // Liquids and smoke before they reach a device. References: the law of Beer and Lambert, geometry
 // by hand, Galileo's principle (a liquid that moves as a whole does not foam).
 #include "engine/core/random.hpp"
+#include "tests/support/why_not.hpp"
 #include "viewer/render/foam.hpp"
 #include "viewer/render/frame_setup.hpp"
 #include "viewer/render/null/null_device.hpp"
@@ -270,7 +271,7 @@ TEST_CASE(
     for (const Quality q : {Quality::draft, Quality::standard, Quality::high}) {
       scene.quality = q;
       auto report = (*renderer)->render(scene, 320, 180);
-      REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+      REQUIRE_MESSAGE(report.ok(), test::why_not(report));
       CHECK(report->draws.hash != hash);
       hash = report->draws.hash;
       CHECK((*renderer)->render(scene, 320, 180)->draws.hash == hash);
