@@ -22,6 +22,7 @@
 #include "engine/world/joint_store.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
+#include "engine/world/pressed_nets.hpp"
 #include "engine/world/queries/query_cache.hpp"
 #include "engine/world/sensors/sense.hpp"
 #include "engine/world/settings.hpp"
@@ -109,6 +110,7 @@ struct Workspace {
   SumsBefore sums_before;
   std::vector<uint8_t> supported;            ///< by slot, for springs: see NetSupports
   std::vector<HeldParticle> held_particles;  ///< likewise
+  PressedNets pressed_nets;
   SleepScratch sleep_scratch;
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
   EmissionScratch emission;

@@ -179,6 +179,9 @@ class BetweenStages final : public TickListener {
  public:
   explicit BetweenStages(WorldState& state) : s_(state) {}
   void bounds_known() override { look_around(s_); }
+  std::span<SolvedSpring> contacts_known(double part) override {
+    return s_.workspace.pressed_nets.press(s_, part);
+  }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
     s_.workspace.books.joints = {
@@ -186,6 +189,7 @@ class BetweenStages final : public TickListener {
     s_.workspace.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
+    s_.workspace.pressed_nets.share(s_, part);
     const ScopedStage stage(s_.profiler, "books");
     s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
                                  s_.joints.energies(s_.bodies.bodies).total()};
@@ -241,6 +245,7 @@ Status run_stages(WorldState& s) {
     if (const Status moved = move_fluids(s); !moved) return moved;
     carry_on_grains(s);
     if (const Status made = append_colliding(s); !made) return made;
+    s.workspace.pressed_nets.find(s);
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());

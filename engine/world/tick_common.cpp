@@ -70,6 +70,8 @@ bool finite(const RigidBody& b) {
 const std::vector<BodyLink>& body_links(WorldState& s) {
   s.workspace.links.clear();
   add_spring_links(s, s.workspace.links);
+  const std::span<const BodyLink> nets = s.workspace.pressed_nets.links();
+  s.workspace.links.insert(s.workspace.links.end(), nets.begin(), nets.end());
   s.joints.add_links(s.workspace.links);
   return s.workspace.links;
 }

@@ -34,6 +34,13 @@ inline constexpr double holding_mass_ratio = 20;
 /// A particle rubs along where its friction is within this share of the largest [-].
 inline constexpr double near_slipping = 0.999;
 
+/// A net of springs takes sub-steps where the ends of one pass by more than this share of its
+/// length in a tick [-]: the direction that it has at the start says nothing of the end.
+inline constexpr double passed_of_length = 0.5;
+/// And where straight paths in a tick would stretch one by more than this share of the energy of
+/// its turning [-].
+inline constexpr double stretched_by_turning = 0.01;
+
 /// Largest ratio of the spacings of fluids that see each other [-]: the kernel, which goes by the
 /// mean volume of all, then reaches no fewer than one and a half spacings of any.
 inline constexpr double most_spacing_ratio = 1.25;

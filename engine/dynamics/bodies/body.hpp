@@ -153,6 +153,9 @@ struct RigidBody {
   bool can_sleep = true;
   bool precise = false;     ///< as in BodyDef
   bool teleported = false;  ///< pose was set from outside since the last frame
+  /// Contacts are found along its whole way in a tick, where others look no farther than
+  /// foresight(): particles of nets, of which the springs must know what stops one.
+  bool looks_far = false;
   double gravity_scale = 1;
   double fluid_friction = 1;         ///< as in BodyDef
   double mass = 0;                   ///< [kg]; 0 for fixed and kinematic bodies

@@ -48,7 +48,7 @@ struct Tick {
   double h, margin;
 };
 
-/// Puts the proxies of a body from `out` on; whether it is a dynamic body with a triangle mesh.
+/// Puts the proxies of a body from `out` on; whether its tick may have to be taken in parts.
 bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
                  ShapeRef* refs) {
   const bool moving = is_active(body);
@@ -75,7 +75,7 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
     out[s] = {bounds.inflated(wide + turning.reach), moving};
     refs[s] = {slot, s};
   }
-  return mesh && body.dynamic();
+  return (mesh || body.looks_far) && body.dynamic();
 }
 
 /// Whether a body has several, told by where proxies begin.
@@ -131,7 +131,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
     }
     meshes[chunk] = mesh;
   });
-  out.moving_meshes = std::ranges::any_of(meshes, std::identity());
+  out.may_need_parts = std::ranges::any_of(meshes, std::identity());
   out.news.everything(out.proxies);
 }
 

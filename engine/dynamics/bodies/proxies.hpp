@@ -26,7 +26,8 @@ struct ProxySet {
   std::vector<uint32_t> first;   ///< by body slot: its first proxy; and the end
   std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several shapes
   ProxyNews news;                ///< of the last update
-  bool moving_meshes = true;     ///< false: no dynamic body has a triangle mesh
+  /// false: no dynamic body has a triangle mesh or looks far, so that no tick has parts.
+  bool may_need_parts = true;
 
   uint32_t shapes_of(uint32_t body) const { return first[body + 1] - first[body]; }
 };

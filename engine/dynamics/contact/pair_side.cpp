@@ -43,7 +43,7 @@ PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const Vec3& 
     const ShapeTurning turning = shape_turning(body, of_body, h);
     side.end_velocity += turning.velocity;
     side.turning = turning.reach;
-    side.foresight = foresight(body);
+    if (!body.looks_far) side.foresight = foresight(body);
   }
   return side;
 }

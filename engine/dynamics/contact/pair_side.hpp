@@ -15,7 +15,8 @@ struct PairSide {
   /// its centre, for how it turns is not foreseen [m/s].
   Vec3 end_velocity = Vec3::Zero();
   double turning = 0;                    ///< ShapeTurning::reach; of a kinematic body 0 [m]
-  double foresight = 0;                  ///< tumble::foresight; of what nothing moves infinite [m]
+  /// tumble::foresight; infinite of what nothing moves, or looks far [m].
+  double foresight = 0;
   double margin = 0;                     ///< contact_margin [m]
   double radius = 0;                     ///< RigidBody::bounding_radius [m]
   double shape_radius = 0;               ///< Shape::bounding_radius [m]

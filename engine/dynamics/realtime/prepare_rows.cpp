@@ -26,6 +26,11 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
 
 namespace {
 
+/// Contacts beside springs: however hard these press, nothing gives way.
+Softness rigid_step(double hs) {
+  return {tolerances::rigid_share / hs, 1, 0};
+}
+
 /// Mobility of a point of a body: v = K P for an impulse P at lever arm r.
 double mobility(const SolverBody& body, const Vec3& r, const Vec3& u, const Vec3& v) {
   return body.inverse_mass * u.dot(v) + r.cross(u).dot(body.inverse_inertia * r.cross(v));
@@ -143,6 +148,7 @@ void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs)
     row.spins = a.spins || b.spins;
     const bool delicate = row.spins || a.jointed || b.jointed;
     row.soft = is_hard(contact, a.dynamic && b.dynamic, delicate) ? hard : soft;
+    if (!island.springs.empty()) row.soft = rigid_step(hs);
     prepare_turning(island, contact, hs, row);
     const Pose& pose_a = c.bodies[contact.key.body_a].pose;
     const Pose& pose_b = c.bodies[contact.key.body_b].pose;

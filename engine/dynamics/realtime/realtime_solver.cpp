@@ -24,7 +24,7 @@ struct RealtimeSolver::Scratch {
     uint32_t begin = 0, end = 0;
   };
   struct Layout {
-    Range bodies, rows, points, joints, drives, coupled;
+    Range bodies, rows, points, joints, drives, coupled, springs, spring_turns;
   };
   SolvePlans plans;
   WideIsland wide;
@@ -36,6 +36,8 @@ struct RealtimeSolver::Scratch {
   std::vector<JointBlock> joints;
   std::vector<DriveRow> drives;
   std::vector<CoupledJoints> coupled;
+  std::vector<SpringRow> springs;
+  std::vector<SpringTurn> spring_turns;
   std::vector<JointPush> joint_pushes;
   std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t>
@@ -122,6 +124,20 @@ void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const
     motions[base + joint.a].jointed = motions[base + joint.b].jointed = true;
   }
   const auto index = uint32_t(&island - islands.islands.data());
+  for (const uint32_t k : plans.springs(index)) {
+    const SolvedSpring& spring = context.springs[k];
+    SpringRow& row = springs.emplace_back();
+    row.source = k;
+    row.count = spring.count;
+    for (uint32_t i = 0; i < spring.count; ++i) {
+      const SolvedSpring::End& end = spring.end[i];
+      row.body[i] = find(end.slot);
+      row.weight[i] = end.weight;
+      if (end.slot != no_body && !end.point.isZero(0) && context.bodies[end.slot].dynamic())
+        row.turns = uint32_t(spring_turns.size()) - layout.spring_turns.begin;
+    }
+    if (row.turns != SpringRow::none) spring_turns.emplace_back();
+  }
   if (!plans.couplings(index).empty()) add_couplings(context, index, layout, find);
   for (uint32_t k = base; k < bodies.size(); ++k) {
     if (motions[k].slot != no_slot) local[motions[k].slot] = no_slot;
@@ -137,11 +153,13 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
   joints.clear();
   drives.clear();
   coupled.clear();
+  springs.clear();
+  spring_turns.clear();
   local.resize(context.bodies.size(), no_slot);
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {
     const Island& island = islands.islands[i];
     const bool touches = island.contact_begin < island.contact_end;
-    const bool tied = island.joint_begin < island.joint_end;
+    const bool tied = island.joint_begin < island.joint_end || !plans.springs(i).empty();
     Layout& layout = layouts.emplace_back();
     layout.bodies.begin = uint32_t(bodies.size());
     layout.rows.begin = uint32_t(rows.size());
@@ -149,6 +167,8 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     layout.joints.begin = uint32_t(joints.size());
     layout.drives.begin = uint32_t(drives.size());
     layout.coupled.begin = uint32_t(coupled.size());
+    layout.springs.begin = uint32_t(springs.size());
+    layout.spring_turns.begin = uint32_t(spring_turns.size());
     if (!plans.plans()[i].wide && (touches || tied))
       lay_out_island(context, islands, island, layout);
     layout.bodies.end = uint32_t(bodies.size());
@@ -157,6 +177,8 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
     layout.joints.end = uint32_t(joints.size());
     layout.drives.end = uint32_t(drives.size());
     layout.coupled.end = uint32_t(coupled.size());
+    layout.springs.end = uint32_t(springs.size());
+    layout.spring_turns.end = uint32_t(spring_turns.size());
   }
   residuals.assign(layouts.size(), {});
 }
@@ -244,7 +266,7 @@ void RealtimeSolver::add_memory(MemoryUse& use) const {
   const Scratch& s = *scratch_;
   use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local) + s.plans.bytes();
   use.contacts += heap_bytes(s.rows, s.points);
-  use.joints += heap_bytes(s.joints, s.drives, s.joint_pushes);
+  use.joints += heap_bytes(s.joints, s.drives, s.joint_pushes, s.springs, s.spring_turns);
   s.wide.add_memory(use);
 }
 
@@ -255,21 +277,24 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
                                                 const IslandSet& islands, const Vec3& gravity,
                                                 double h, const RealtimeSettings& settings,
                                                 Crew& crew, std::span<Joint> joints,
-                                                std::span<JointCoupling> couplings, double passed) {
+                                                std::span<JointCoupling> couplings, double passed,
+                                                std::span<SolvedSpring> springs) {
   Scratch& s = *scratch_;
   s.joint_pushes.resize(joints.size());
-  const SolverContext context{bodies, contacts.contacts(), gravity,   h,     &settings,
-                              joints, s.joint_pushes,      couplings, passed};
+  const SolverContext context{bodies, contacts.contacts(), gravity,   h,      &settings,
+                              joints, s.joint_pushes,      couplings, passed, springs};
   s.plans.make(context, islands, crew);
   s.lay_out(context, islands);
   crew.each(s.layouts.size(), [&](size_t i) {
     const Scratch::Layout& l = s.layouts[i];
     const SolvePlan& plan = s.plans.plans()[i];
     if (plan.wide) return;
-    SolverIsland island{part(s.bodies, l.bodies), part(s.motions, l.bodies), part(s.rows, l.rows),
-                        part(s.points, l.points), part(s.joints, l.joints),  plan.joint_sweeps,
-                        part(s.drives, l.drives), part(s.coupled, l.coupled)};
-    if (!island.rows.empty() || !island.joints.empty()) {
+    SolverIsland island{part(s.bodies, l.bodies),   part(s.motions, l.bodies),
+                        part(s.rows, l.rows),       part(s.points, l.points),
+                        part(s.joints, l.joints),   plan.joint_sweeps,
+                        part(s.drives, l.drives),   part(s.coupled, l.coupled),
+                        part(s.springs, l.springs), part(s.spring_turns, l.spring_turns)};
+    if (!island.rows.empty() || !island.joints.empty() || !island.springs.empty()) {
       s.residuals[i] = solve_island(context, island, plan.substeps);
       store_bodies(context, island);
       return;

@@ -7,6 +7,7 @@
 #include "engine/dynamics/joints/joint_coupling.hpp"
 #include "engine/dynamics/joints/joint_push.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/spring_row.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -44,16 +45,17 @@ class RealtimeSolver {
 
   /// Moves every awake dynamic body of `islands` and every kinematic body; writes back poses,
   /// velocities and the impulses of contacts, of `joints`, which are those that the islands name,
-  /// and of their couplings. `h` may be a part of the tick, of which `passed` seconds are over.
-  /// RigidBody::force and torque are without gravity and stay as they are. Islands are solved in
-  /// parallel inside `crew`; the result does not depend on the number of threads. Error `numeric`
-  /// names the first body slot that became non-finite and its deepest contact; the bodies are then
-  /// in an undefined state.
+  /// and of their couplings, and what `springs` did, of which the links made islands. `h` may be a
+  /// part of the tick, of which `passed` seconds are over. RigidBody::force and torque are without
+  /// gravity and stay as they are. Islands are solved in parallel inside `crew`; the result does
+  /// not depend on the number of threads. Error `numeric` names the first body slot that became
+  /// non-finite and its deepest contact; the bodies are then in an undefined state.
   Result<RealtimeSolveStats> step(std::span<RigidBody> bodies, ContactSet& contacts,
                                   const IslandSet& islands, const Vec3& gravity, double h,
                                   const RealtimeSettings& settings, Crew& crew,
                                   std::span<Joint> joints = {},
-                                  std::span<JointCoupling> couplings = {}, double passed = 0);
+                                  std::span<JointCoupling> couplings = {}, double passed = 0,
+                                  std::span<SolvedSpring> springs = {});
 
   /// What the joints that the islands of the last step name did to their bodies in it, by index.
   std::span<const JointPush> joint_pushes() const;

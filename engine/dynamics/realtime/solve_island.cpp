@@ -41,6 +41,24 @@ void end_substep(const SolverIsland& island, double hs, bool bounced) {
   if (bounced || limit_bounces(island)) recall_impulses(island);
 }
 
+/// Springs, joints and contacts in turn, as often as springs still change. They start without
+/// impulses: those of the sub-step before are in balance at other lengths, and a stiff spring would
+/// swing up by them.
+void solve_springs(const SolverContext& c, const SolverIsland& island, double hs, double push_out) {
+  start_springs(c, island, hs);
+  cold_start(island);
+  const size_t sweeps = std::clamp(tolerances::spring_budget / island.springs.size(),
+                                   tolerances::least_spring_sweeps, tolerances::most_spring_sweeps);
+  double most = 0;
+  for (size_t k = 0; k < sweeps; ++k) {
+    const double change = sweep_springs(island, k % 2 == 1);
+    if (!island.joints.empty()) move_onto_joints(island, hs);
+    solve_rows(island, hs, push_out, true);
+    most = std::max(most, change);
+    if (change <= tolerances::spring_error * tolerances::spring_error * most) return;
+  }
+}
+
 }  // namespace
 
 SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n) {
@@ -48,7 +66,8 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   const double push_out = c.settings->push_out_speed;
   // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
   // of second order. Contacts need the whole kick before them, or they would let go in between.
-  const double kick = island.kick = island.rows.empty() ? 0.5 * hs : hs;
+  const bool halves = island.rows.empty() && island.springs.empty();
+  const double kick = island.kick = halves ? 0.5 * hs : hs;
   island.joint_softness = joint_softness(hs);
   prepare_rows(c, island, hs);
   prepare_joints(c, island, hs);
@@ -65,14 +84,19 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (i > 0) end_substep(island, hs, false);
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
-    warm_start(island);
     warm_start_joints(island, hs, JointPass::moving);
-    move_onto_joints(island, hs);
-    solve_rows(island, hs, push_out, true);
+    if (island.springs.empty()) {
+      warm_start(island);
+      move_onto_joints(island, hs);
+      solve_rows(island, hs, push_out, true);
+    } else {
+      solve_springs(c, island, hs, push_out);
+    }
     if (measured) add_taken(JointPass::moving);
     integrate_positions(c, island, hs);
     if (kick < hs) integrate_velocities(c, island, hs - kick);
     refresh_spinning_rows(c, island);
+    sum_springs(c, island, hs);
     sum_joints(island, hs, JointPass::moving);
     refresh_joints(c, island, hs);
     if (measured) note_pass(1);

@@ -125,6 +125,12 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
   const size_t work = work_of(island), joints = island.joint_end - island.joint_begin;
   SolvePlan plan;
   plan.substeps = s.substeps;
+  const auto index = uint32_t(&island - islands.islands.data());
+  if (!springs(index).empty()) {
+    plan.substeps = std::max(s.substeps, int(std::ceil(c.h / tolerances::spring_substep)));
+    plan.joint_sweeps = precise_joint_sweeps(joints);
+    return plan;
+  }
   if (work == 0) return plan;
   const int most = precise_substeps(work, s);
   const auto asked = [&] {
@@ -133,7 +139,6 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
                                       return traits_[slot].is(BodyTraits::precise);
                                     });
   };
-  const auto index = uint32_t(&island - islands.islands.data());
   const bool precise =
       !couplings(index).empty() ||
       (most > s.substeps && (work <= tolerances::negligible_work || asked() ||
@@ -150,34 +155,43 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
   return plan;
 }
 
-std::span<const uint32_t> SolvePlans::couplings(uint32_t island) const {
-  if (couplings_.empty()) return {};
-  return std::span(couplings_)
-      .subspan(first_coupling_[island], first_coupling_[island + 1] - first_coupling_[island]);
+std::span<const uint32_t> SolvePlans::ByIsland::of(uint32_t island) const {
+  if (things_.empty()) return {};
+  return std::span(things_).subspan(first_[island], first_[island + 1] - first_[island]);
 }
 
-/// Each is in the island of its first body that is in any: links made these one island.
-void SolvePlans::find_couplings(const SolverContext& c, const IslandSet& islands) {
-  couplings_.clear();
-  if (c.couplings.empty()) return;
-  const auto in_island = [&](uint32_t slot) { return islands.island_of[slot] != 0; };
-  std::vector<uint32_t> of(c.couplings.size());
-  first_coupling_.assign(islands.islands.size() + 1, 0);
-  for (size_t k = 0; k < of.size(); ++k) {
-    const uint32_t slot = first_body(c.couplings[k], c.joints, in_island);
+template <class F>
+void SolvePlans::ByIsland::sort(const IslandSet& islands, size_t count, const F& slot_of) {
+  things_.clear();
+  if (count == 0) return;
+  std::vector<uint32_t> of(count);
+  first_.assign(islands.islands.size() + 1, 0);
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t slot = slot_of(k);
     of[k] = slot == no_body ? 0 : islands.island_of[slot];
-    if (of[k] > 0) ++first_coupling_[of[k]];
+    if (of[k] > 0) ++first_[of[k]];
   }
-  std::partial_sum(first_coupling_.begin(), first_coupling_.end(), first_coupling_.begin());
-  couplings_.resize(first_coupling_.back());
-  std::vector<uint32_t> next = first_coupling_;
-  for (size_t k = 0; k < of.size(); ++k)
-    if (of[k] > 0) couplings_[next[of[k] - 1]++] = uint32_t(k);
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  things_.resize(first_.back());
+  std::vector<uint32_t> next = first_;
+  for (size_t k = 0; k < count; ++k)
+    if (of[k] > 0) things_[next[of[k] - 1]++] = uint32_t(k);
 }
 
 void SolvePlans::make(const SolverContext& c, const IslandSet& islands, Crew& crew) {
   read_bodies(c, islands, crew);
-  find_couplings(c, islands);
+  // Each is in the island of its first body that is in any: links made these one island.
+  const auto in_island = [&](uint32_t slot) {
+    return slot != no_body && islands.island_of[slot] != 0;
+  };
+  couplings_.sort(islands, c.couplings.size(),
+                  [&](size_t k) { return first_body(c.couplings[k], c.joints, in_island); });
+  springs_.sort(islands, c.springs.size(), [&](size_t k) {
+    const SolvedSpring& spring = c.springs[k];
+    for (uint32_t i = 0; i < spring.count; ++i)
+      if (in_island(spring.end[i].slot)) return spring.end[i].slot;
+    return no_body;
+  });
   plans_.clear();
   for (auto& which : wide_) which.clear();
   for (uint32_t i = 0; i < islands.islands.size(); ++i) {

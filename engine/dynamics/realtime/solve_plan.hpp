@@ -47,7 +47,9 @@ constexpr size_t wide_sorts = 5;
 ///   a noticeable share of its inner radius. A soft contact gives way by g h^2 times the masses
 ///   that it carries over its own, so these are small things, thin ones, and light ones below heavy
 ///   ones; and where nothing has weight,
-/// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled.
+/// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled,
+/// - with springs that are solved together with contacts: all of the sub-steps, whatever their
+/// size.
 struct SolvePlan {
   int substeps = 1;
   int joint_sweeps = 1;  ///< before the bodies move, and after it
@@ -75,11 +77,12 @@ class SolvePlans {
   /// Indices of the ordinary islands of a sort.
   std::span<const uint32_t> wide(WideSort sort) const { return wide_[size_t(sort)]; }
   /// Indices of the couplings of an island, ascending.
-  std::span<const uint32_t> couplings(uint32_t island) const;
+  std::span<const uint32_t> couplings(uint32_t island) const { return couplings_.of(island); }
+  /// Indices of the springs of an island, ascending.
+  std::span<const uint32_t> springs(uint32_t island) const { return springs_.of(island); }
   size_t bytes() const { return heap_bytes(traits_, plans_); }
 
  private:
-  void find_couplings(const SolverContext& context, const IslandSet& islands);
   void read_bodies(const SolverContext& context, const IslandSet& islands, Crew& crew);
   SolvePlan plan(const SolverContext& context, const IslandSet& islands, const Island& island);
   WideSort sort(const SolverContext& context, const IslandSet& islands, const Island& island);
@@ -90,7 +93,18 @@ class SolvePlans {
   std::vector<BodyTraits> traits_;
   std::vector<SolvePlan> plans_;
   std::array<std::vector<uint32_t>, wide_sorts> wide_;
-  std::vector<uint32_t> couplings_, first_coupling_;  ///< by island; empty where there are none
+  /// Numbers of things that islands share out among them.
+  class ByIsland {
+   public:
+    /// Of `count` things; slot_of(k) is a body of the island that has thing k, or no_body.
+    template <class F>
+    void sort(const IslandSet& islands, size_t count, const F& slot_of);
+    std::span<const uint32_t> of(uint32_t island) const;
+
+   private:
+    std::vector<uint32_t> things_, first_;  ///< empty where there are none
+  };
+  ByIsland couplings_, springs_;
 };
 
 }  // namespace tumble

@@ -117,6 +117,11 @@ void warm_start(const SolverIsland& island) {
   }
 }
 
+void cold_start(const SolverIsland& island) {
+  for (ContactRow& row : island.rows) row.turning.impulse.setZero();
+  for (PointRow& p : island.points) p.normal = p.tangent1 = p.tangent2 = 0;
+}
+
 namespace {
 
 void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,
@@ -206,7 +211,8 @@ double apply_restitution(const SolverContext& c, const SolverIsland& island) {
       Pair pair(a, b);
       const double apart = row.n.dot(pair.slip(p));
       double push = -p.normal_mass * (apart - p.bounce);
-      if (row.spins)
+      // What springs took of the approach in the tick they give back themselves.
+      if (row.spins || !island.springs.empty())
         push = std::min(push, bounce_limit(p.normal_mass, apart,
                                            lost_energy(c, a, island.motions[row.a]) +
                                                lost_energy(c, b, island.motions[row.b])));

@@ -5,6 +5,7 @@
 #include "engine/dynamics/realtime/drive_row.hpp"
 #include "engine/dynamics/realtime/joint_block.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/spring_row.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/turning_row.hpp"
 
@@ -107,6 +108,8 @@ struct SolverIsland {
   int joint_sweeps = 1;             ///< before the bodies move, and after it
   std::span<DriveRow> drives = {};  ///< of the joints, and of others
   std::span<CoupledJoints> coupled = {};
+  std::span<SpringRow> springs = {};
+  std::span<SpringTurn> spring_turns = {};
   double kick = 0;               ///< how long forces act in a sub-step before joints do [s]
   Softness joint_softness = {};  ///< of the correcting pass
 };
@@ -127,6 +130,7 @@ struct SolverContext {
   std::span<JointPush> joint_pushes = {};  ///< by joint, or none
   std::span<JointCoupling> couplings = {};
   double passed = 0;  ///< of the tick, when `h` is a part of it [s]
+  std::span<SolvedSpring> springs = {};
 };
 
 /// Fills bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count, source
@@ -137,6 +141,8 @@ void prepare_rows(const SolverContext& context, const SolverIsland& island, doub
 void refresh_spinning_rows(const SolverContext& context, const SolverIsland& island);
 /// Starts from the impulses of the sub-step before.
 void warm_start(const SolverIsland& island);
+/// Starts from none.
+void cold_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Sliding friction once more, bounded by the normal impulses with which the sub-step ends. Those

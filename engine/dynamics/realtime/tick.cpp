@@ -64,7 +64,7 @@ Status RealtimeTick::solve(double part, const RealtimeSettings& tuning) {
     continuous.pass_through(apart);
   }
   const auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints,
-                                  couplings, passed);
+                                  couplings, passed, springs);
   if (!solved) return solved.error();
   report.solve = *solved;
   return {};
@@ -89,6 +89,7 @@ void RealtimeTick::sleep() {
 Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   find_contacts(part, tuning);
   if (stop_requested()) return stopped_error();
+  springs = listener.contacts_known(part);
   group(part);
   listener.islands_known();
   if (const Status solved = solve(part, tuning); !solved) return solved;

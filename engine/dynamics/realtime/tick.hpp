@@ -27,7 +27,10 @@ class TickParts;
 class TickListener {
  public:
   virtual ~TickListener() = default;
-  virtual void bounds_known() {}           ///< the broad phase has not looked for pairs yet
+  virtual void bounds_known() {}  ///< the broad phase has not looked for pairs yet
+  /// Islands have not been made yet. Gives springs that are to be solved with the contacts, between
+  /// bodies that RealtimeTick::links make one island; their forces must not be in the sums.
+  virtual std::span<SolvedSpring> contacts_known(double /*part*/) { return {}; }
   virtual void islands_known() {}          ///< the solver has not moved anything yet
   virtual void solved(double /*part*/) {}  ///< over so many seconds; nothing has been put back yet
   virtual void put_back() {}               ///< the continuous stage has put something back
@@ -67,8 +70,9 @@ struct RealtimeTick {
   std::span<Joint> joints;
   std::span<JointCoupling> couplings = {};  ///< of these
   std::span<const BodyLink> links;
-  const PairFilter& apart;  ///< who passes through each other
-  Roster& roster;           ///< refreshed for this tick
+  std::span<SolvedSpring> springs = {};  ///< TickListener::contacts_known
+  const PairFilter& apart;               ///< who passes through each other
+  Roster& roster;                        ///< refreshed for this tick
   ProxySet& proxies;
   std::vector<ProxyPair>& pairs;
   ContactSet& contacts;

@@ -20,8 +20,9 @@ double thickness(const RigidBody& body, uint32_t shape, bool close) {
   const Shape& s = *body.shapes[shape].shape;
   if (!body.dynamic()) return std::numeric_limits<double>::infinity();
   if (!s.is_mesh())
-    return close ? tolerances::close_of_radius * body.inner_radius
-                 : std::numeric_limits<double>::infinity();
+    return close            ? tolerances::close_of_radius * body.inner_radius
+           : body.looks_far ? body.inner_radius
+                            : std::numeric_limits<double>::infinity();
   const MeshSurface& surface = s.polyhedral()->surface();
   return std::max(surface.min_thickness, tolerances::thin_of_size * surface.size);
 }
@@ -94,7 +95,7 @@ void TickParts::spread(const Tick& tick, std::span<const int> asked) {
 void TickParts::find(const Tick& tick, const RealtimeSettings& settings) {
   numbers_.clear();
   of_.clear();
-  if (!tick.proxies.moving_meshes && !tick.close) return;
+  if (!tick.proxies.may_need_parts && !tick.close) return;
   std::vector<int> asked;
   for (const ProxyPair& pair : tick.pairs)
     asked.push_back(parts_for(tick, pair, settings.max_parts));

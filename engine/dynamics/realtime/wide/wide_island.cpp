@@ -46,8 +46,12 @@ WideStep wide_step(const SolverContext& c, double hs) {
 }  // namespace
 
 SolverIsland WideIsland::rest() {
-  return {bodies_, motions_, rest_rows_, rest_points_,   joints_, tolerances::ordinary_joint_sweeps,
-          drives_, {},       kick_,      joint_softness_};
+  SolverIsland rest{bodies_, motions_, rest_rows_, rest_points_, joints_};
+  rest.joint_sweeps = tolerances::ordinary_joint_sweeps;
+  rest.drives = drives_;
+  rest.kick = kick_;
+  rest.joint_softness = joint_softness_;
+  return rest;
 }
 
 SolverIsland WideIsland::rest_of(const Part& part) {

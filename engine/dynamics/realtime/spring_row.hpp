@@ -1,0 +1,72 @@
+#pragma once
+#include "engine/dynamics/joints/joint.hpp"
+#include "engine/math/types.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace tumble {
+
+/// A damped spring, or a resistance to bending, that is solved together with contacts and joints.
+/// Its length is that of q = sum_i w_i x_i over its ends, of weights that add up to nothing; end i
+/// gets the impulse -w_i P. A spring has the weights -1 and 1, bending a rest length of 0.
+struct SolvedSpring {
+  static constexpr uint32_t most_ends = 4;
+  struct End {
+    uint32_t slot = no_body;     ///< of a body; `no_body`: the world
+    Vec3 point = Vec3::Zero();   ///< from its centre of mass, body axes; of the world, its axes [m]
+    double weight = 0;           ///< [-]
+    Vec3 moment = Vec3::Zero();  ///< that it got over the step, about the centre of mass [N m s]
+  };
+  std::array<End, most_ends> end;
+  uint32_t count = 0;                                  ///< of the ends
+  double stiffness = 0, damping = 0, rest_length = 0;  ///< [N/m], [N s/m], [m]
+  // Over the step.
+  Vec3 impulse = Vec3::Zero();  ///< P [N s]
+  Vec3 elastic = Vec3::Zero();  ///< the part of it that the potential explains [N s]
+
+  void add(uint32_t slot, const Vec3& point, double weight) {
+    end[count++] = {slot, point, weight, Vec3::Zero()};
+  }
+};
+
+/// One of them in the inner loops. Over a sub-step of h seconds it is backward Euler, linearised at
+/// its start (Baraff and Witkin, "Large steps in cloth simulation", 1998): with l the length of q
+/// and n its direction then, and u its rate at the end of the sub-step,
+///   P = h k (l - l0) n + E u,   E = (h^2 k + h c) n n^T + h^2 max(0, k (1 - l0/l)) (1 - n n^T).
+/// An impulse changes the rate by -W P, W being what the ends yield: the one that fulfils this is
+///   P = (1 + E W)^-1 (h k (l - l0) n + E (u + W P_before)).
+struct SpringRow {
+  static constexpr uint32_t none = ~uint32_t{0};
+  std::array<uint32_t, SolvedSpring::most_ends> body{};  ///< solver bodies
+  std::array<double, SolvedSpring::most_ends> weight{};
+  uint32_t count = 0;
+  uint32_t source = 0;    ///< SolverContext::springs
+  uint32_t turns = none;  ///< SpringTurn of one that turns a body
+  Vec3 n = Vec3::UnitX();
+  Vec3 aim = Vec3::Zero();  ///< (1 + E W)^-1 h k (l - l0) n [N s]
+  double along = 0,
+         across = 0;    ///< (1 + E W)^-1 E along n and across it, of one that turns none [kg]
+  double mobility = 0;  ///< W, likewise [1/kg]
+  Vec3 impulse = Vec3::Zero();  ///< P of the sub-step [N s]
+};
+
+/// What a spring needs besides that turns a body.
+struct SpringTurn {
+  std::array<Vec3, SolvedSpring::most_ends> arm;  ///< of its ends, world axes [m]
+  Mat3 follows = Mat3::Zero();                    ///< (1 + E W)^-1 E [kg]
+  Mat3 yields = Mat3::Zero();                     ///< W [1/kg]
+};
+
+struct SolverContext;
+struct SolverIsland;
+
+/// Rows at the present poses for a sub-step of `hs` seconds, without impulses.
+void start_springs(const SolverContext& context, const SolverIsland& island, double hs);
+/// One sweep over the springs of an island, there or back. Gives by how much impulses changed, as
+/// the sum of their squares in the norm of kinetic energy [J].
+double sweep_springs(const SolverIsland& island, bool back);
+/// When positions have moved: adds the impulses of the sub-step to those of the step.
+void sum_springs(const SolverContext& context, const SolverIsland& island, double hs);
+
+}  // namespace tumble
