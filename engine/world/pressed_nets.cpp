@@ -36,25 +36,61 @@ void withdraw(ForceShare& share, std::vector<RigidBody>& bodies) {
 }  // namespace
 
 void PressedNets::clear() {
+  pulled_apart_.clear();
   tied_.clear();
   links_.clear();
   springs_.clear();
   forces_.clear();
 }
 
+/// The slots that particles that collide will have, behind the bodies.
+void PressedNets::number_particles(const WorldState& s) {
+  auto next = uint32_t(s.bodies.bodies.size());
+  first_block_ = next;
+  first_of_.assign(s.particles.size(), no_body);
+  for (uint32_t k = 0; k < s.particles.size(); ++k) {
+    const ParticleSystem& p = s.particles[k];
+    const auto which = ParticleBlocks::Which::colliding;
+    if (!s.particle_ids.alive(k) || !ParticleBlocks::has_blocks(which, p)) continue;
+    first_of_[k] = next;
+    next += uint32_t(p.size());
+  }
+  sets_.reset(next);
+  of_.assign(next, 0);
+  pressed_.assign(next, 0);
+}
+
+/// Slot of a particle; no_body where it is gone, or has no block.
+uint32_t PressedNets::slot_of(const WorldState& s, ParticleSystemId system, uint64_t id) const {
+  if (!s.particle_ids.contains(system) || first_of_[system.index] == no_body) return no_body;
+  const ParticleSystem& p = s.particles[system.index];
+  const size_t i = p.find(id);
+  return i < p.size() ? first_of_[system.index] + uint32_t(i) : no_body;
+}
+
+bool PressedNets::moves(const WorldState& s, uint32_t slot) const {
+  return slot != no_body && (slot >= first_block_ || s.bodies.bodies[slot].dynamic());
+}
+
 /// Adds an anchor as an end of a spring; whether it is there.
-bool PressedNets::add_end(const WorldState& s, const ForceContext& context, const Anchor& anchor,
-                          double weight, SolvedSpring& spring) {
-  if (!locate(anchor, context)) return false;
-  const RigidBody* body = pulled_body(anchor, context);
-  if (!body) {
-    astray_ = astray_ || anchor.kind != Anchor::Kind::world;
+bool PressedNets::add_end(const WorldState& s, const Anchor& anchor, double weight,
+                          SolvedSpring& spring) {
+  if (anchor.kind == Anchor::Kind::world) {
     spring.add(no_body, anchor.point, weight);
     return true;
   }
-  const bool of_body = anchor.kind == Anchor::Kind::body;
-  spring.add(uint32_t(body - s.bodies.bodies.data()),
-             of_body ? Vec3(anchor.point - body->centre_body) : Vec3(Vec3::Zero()), weight);
+  if (anchor.kind == Anchor::Kind::body) {
+    if (!s.bodies.ids.contains(anchor.body)) return false;
+    const RigidBody& body = s.bodies.bodies[anchor.body.index];
+    spring.add(anchor.body.index, anchor.point - body.centre_body, weight);
+    return true;
+  }
+  if (!s.particle_ids.contains(anchor.particles)) return false;
+  const ParticleSystem& p = s.particles[anchor.particles.index];
+  if (p.find(anchor.particle) == p.size()) return false;
+  const uint32_t slot = slot_of(s, anchor.particles, anchor.particle);
+  astray_ = astray_ || slot == no_body;
+  spring.add(slot, Vec3::Zero(), weight);
   return true;
 }
 
@@ -63,36 +99,39 @@ void PressedNets::take(const WorldState& s, const SolvedSpring& spring, uint32_t
   uint32_t first = no_body;
   for (uint32_t i = 0; i < spring.count; ++i) {
     const uint32_t slot = spring.end[i].slot;
-    if (slot == no_body || !s.bodies.bodies[slot].dynamic()) continue;
-    of_[slot] |= uint8_t(tied | (s.blocks.holds(slot) ? block : 0) | (astray_ ? elsewhere : 0));
+    if (!moves(s, slot)) continue;
+    of_[slot] |= uint8_t(tied | (slot >= first_block_ ? block : 0) | (astray_ ? elsewhere : 0));
     if (first == no_body) first = slot;
     sets_.join(first, slot);
   }
   if (first != no_body) tied_.push_back({force, spring, false});
 }
 
-void PressedNets::take_spring(const WorldState& s, const ForceContext& context,
-                              const SpringDef& def, uint32_t force) {
+void PressedNets::take_spring(const WorldState& s, const SpringDef& def, uint32_t force) {
   SolvedSpring spring;
   astray_ = false;
-  if (!add_end(s, context, def.a, -1, spring) || !add_end(s, context, def.b, 1, spring)) return;
+  if (!add_end(s, def.a, -1, spring) || !add_end(s, def.b, 1, spring)) return;
   spring.stiffness = def.stiffness;
   spring.damping = def.damping;
   spring.rest_length = def.rest_length;
   take(s, spring, force);
 }
 
-void PressedNets::take_mesh(const WorldState& s, const ForceContext& context,
-                            const SpringMesh& mesh, uint32_t force) {
+void PressedNets::take_mesh(const WorldState& s, const SpringMesh& mesh, uint32_t force) {
+  uint32_t first = no_body;
   const auto take_with = [&](std::span<const uint32_t> nodes, std::span<const double> weights,
                              double stiffness, double damping, double rest_length) {
     SolvedSpring spring;
     for (size_t i = 0; i < nodes.size(); ++i)
-      if (!add_end(s, context, mesh.nodes[nodes[i]], weights[i], spring)) return;
+      if (!add_end(s, mesh.nodes[nodes[i]], weights[i], spring)) return;
     spring.stiffness = stiffness;
     spring.damping = damping;
     spring.rest_length = rest_length;
     take(s, spring, force);
+    // A force is of one net, as a whole.
+    const uint32_t slot = any_end(spring);
+    if (first == no_body) first = slot;
+    if (slot != no_body) sets_.join(first, slot);
   };
   astray_ = false;
   constexpr std::array<double, 2> apart{-1, 1};
@@ -102,31 +141,50 @@ void PressedNets::take_mesh(const WorldState& s, const ForceContext& context,
     take_with(std::span(b.node).first(b.count), b.weight, b.stiffness, b.damping, 0);
 }
 
-void PressedNets::find(WorldState& s) {
+void PressedNets::find(const WorldState& s) {
   clear();
-  if (s.blocks.empty()) return;
-  std::vector<RigidBody>& bodies = s.bodies.bodies;
-  const ForceContext context = s.force_context();
-  sets_.reset(bodies.size());
-  of_.assign(bodies.size(), 0);
+  const auto ties = [](const auto& force) { return force && is_spring(*force); };
+  if (s.particles.empty() || std::ranges::none_of(s.forces, ties)) return;
+  number_particles(s);
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
     if (const auto* spring = std::get_if<SpringDef>(&*s.forces[i]))
-      take_spring(s, context, *spring, i);
+      take_spring(s, *spring, i);
     else if (const auto* mesh = std::get_if<SpringMeshDef>(&*s.forces[i]))
-      take_mesh(s, context, *mesh->mesh, i);
+      take_mesh(s, *mesh->mesh, i);
   }
   // What a net has of all kinds, at the slot that stands for it.
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[sets_.root(slot)] |= of_[slot];
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[slot] = of_[sets_.root(slot)];
   std::erase_if(tied_, [this](const Tied& t) { return !in_net(any_end(t.spring)); });
-  pressed_.assign(bodies.size(), 0);
+  take_pressed_before(s);
+  pulled_apart_.assign(s.forces.size(), 0);
+  for (Tied& t : tied_) {
+    t.pressed = pressed_[sets_.root(any_end(t.spring))] != 0;
+    if (t.pressed) pulled_apart_[t.force] = 1;
+  }
+}
+
+/// What a contact pressed in the tick before takes sub-steps in this one too.
+void PressedNets::take_pressed_before(const WorldState& s) {
+  s.particle_contacts.for_each([&](const Contact& c) {
+    if (!c.pressed()) return;
+    for (const uint32_t key : {c.key.body_a, c.key.body_b}) {
+      if ((key & particle_bit) == 0) continue;
+      const ParticleName& name = s.touching_particles[key & ~particle_bit];
+      const uint32_t slot = slot_of(s, name.system, name.particle);
+      if (slot != no_body && in_net(slot)) pressed_[sets_.root(slot)] = 1;
+    }
+  });
+}
+
+void PressedNets::tie_blocks(std::vector<RigidBody>& bodies) {
   for (const Tied& t : tied_) {
     uint32_t last = no_body;
     for (uint32_t i = 0; i < t.spring.count; ++i) {
       const uint32_t slot = t.spring.end[i].slot;
       if (slot == no_body || !in_net(slot)) continue;
-      bodies[slot].looks_far = true;
+      bodies[slot].looks_far = slot >= first_block_;
       if (last != no_body && last != slot) links_.push_back({last, slot});
       last = slot;
     }
@@ -192,20 +250,38 @@ std::span<SolvedSpring> PressedNets::press(WorldState& s, double part) {
   return springs_;
 }
 
-void PressedNets::share(WorldState& s, double part) const {
-  for (const uint32_t force : forces_) s.workspace.books.shares[force].clear();
-  for (size_t k = 0; k < springs_.size(); ++k) {
-    const SolvedSpring& spring = springs_[k];
+void PressedNets::share(WorldState& s, double part) {
+  place_.resize(s.bodies.bodies.size(), 0);
+  for (size_t first = 0; first < springs_.size();) {
+    size_t last = first;
+    while (last < springs_.size() && forces_[last] == forces_[first]) ++last;
+    share_force(s, std::span(springs_).subspan(first, last - first), part,
+                s.workspace.books.shares[forces_[first]]);
+    first = last;
+  }
+}
+
+/// What the springs of one force do, each body once.
+void PressedNets::share_force(const WorldState& s, std::span<const SolvedSpring> springs,
+                              double part, ForceShare& share) {
+  share.clear();
+  for (const SolvedSpring& spring : springs)
     for (uint32_t i = 0; i < spring.count; ++i) {
       const SolvedSpring::End& end = spring.end[i];
       if (end.slot == no_body) continue;
+      if (place_[end.slot] == 0) {
+        share.bodies.push_back({end.slot, Vec3::Zero(), Vec3::Zero()});
+        place_[end.slot] = uint32_t(share.bodies.size());
+      }
+      ForceShare::OnBody& on = share.bodies[place_[end.slot] - 1];
       const Vec3 elastic = (-end.weight / part) * spring.elastic;
-      const Vec3 arm = s.bodies.bodies[end.slot].pose.direction(end.point);
-      s.workspace.books.shares[forces_[k]].bodies.push_back(
-          {end.slot, (-end.weight / part) * spring.impulse, end.moment / part, elastic,
-           arm.cross(elastic)});
+      on.force -= (end.weight / part) * spring.impulse;
+      on.torque += end.moment / part;
+      on.held += elastic;
+      if (!end.point.isZero(0))
+        on.held_torque += s.bodies.bodies[end.slot].pose.direction(end.point).cross(elastic);
     }
-  }
+  for (const ForceShare::OnBody& on : share.bodies) place_[on.slot] = 0;
 }
 
 }  // namespace tumble

@@ -11,6 +11,7 @@
 
 namespace tumble {
 
+struct ForceShare;
 struct WorldState;
 
 /// Nets of springs with particles that collide. One that touches nothing is pulled once a tick
@@ -20,15 +21,21 @@ struct WorldState;
 /// the springs of a net that turns or is crossed too fast for a tick.
 class PressedNets {
  public:
-  /// The nets of a tick, blocks of particles being there; marks who looks far for contacts.
-  void find(WorldState& state);
+  /// The nets of a tick, and which were pressed in the one before.
+  void find(const WorldState& state);
+  /// Whether a force is to be asked for its pull: not where it is known to take sub-steps.
+  bool pulls(size_t force) const {
+    return force >= pulled_apart_.size() || pulled_apart_[force] == 0;
+  }
+  /// Blocks of particles being there: makes links(), and marks who looks far for contacts.
+  void tie_blocks(std::vector<RigidBody>& bodies);
   /// Between all that springs of these nets tie.
   std::span<const BodyLink> links() const { return links_; }
   /// Now that contacts are known for `part` seconds: the springs of nets that are pressed, in the
   /// order of the forces. What was pulled by them for the tick is taken out of the force sums.
   std::span<SolvedSpring> press(WorldState& state, double part);
   /// Notes what these springs did in `part` seconds as what their forces do.
-  void share(WorldState& state, double part) const;
+  void share(WorldState& state, double part);
   void clear();
 
  private:
@@ -38,19 +45,26 @@ class PressedNets {
     SolvedSpring spring;
     bool pressed = false;
   };
-  bool add_end(const WorldState& state, const ForceContext& context, const Anchor& anchor,
-               double weight, SolvedSpring& spring);
+  void number_particles(const WorldState& state);
+  uint32_t slot_of(const WorldState& state, ParticleSystemId system, uint64_t id) const;
+  bool moves(const WorldState& state, uint32_t slot) const;
+  bool add_end(const WorldState& state, const Anchor& anchor, double weight, SolvedSpring& spring);
   void take(const WorldState& state, const SolvedSpring& spring, uint32_t force);
-  void take_spring(const WorldState& state, const ForceContext& context, const SpringDef& def,
-                   uint32_t force);
-  void take_mesh(const WorldState& state, const ForceContext& context, const SpringMesh& mesh,
-                 uint32_t force);
+  void take_spring(const WorldState& state, const SpringDef& def, uint32_t force);
+  void take_mesh(const WorldState& state, const SpringMesh& mesh, uint32_t force);
+  void take_pressed_before(const WorldState& state);
+  void share_force(const WorldState& state, std::span<const SolvedSpring> springs, double part,
+                   ForceShare& share);
   bool in_net(uint32_t slot) const;
   uint32_t any_end(const SolvedSpring& spring) const;
   bool is_outrun(const WorldState& state, const SolvedSpring& spring, double part) const;
 
   std::vector<Tied> tied_;
   std::vector<BodyLink> links_;
+  uint32_t first_block_ = 0;           ///< slot of the first particle that is a block
+  std::vector<uint32_t> first_of_;     ///< by system: slot of its first, no_body of those without
+  std::vector<uint8_t> pulled_apart_;  ///< by force: it takes sub-steps, as is known from the start
+  std::vector<uint32_t> place_;   ///< by slot: of its entry in the share under way + 1, 0 between
   bool astray_ = false;           ///< an end of what is under way is a particle and no body
   DisjointSets sets_;             ///< of body slots
   std::vector<uint8_t> of_;       ///< by slot: kinds of what its net ties

@@ -81,7 +81,7 @@ void share_forces_on_particles(WorldState& s) {
   }
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, {}, s.workspace.sums_before, s.workspace.books.shares,
-                   [&s](const ForceDef& spring) { return holds_fast(s, spring); });
+                   [&s](size_t slot) { return holds_fast(s, *s.forces[slot]); });
 }
 
 /// From here on the bodies end with the particles that move like them.

@@ -62,9 +62,11 @@ void find_supported(WorldState& s) {
 void sum_forces(WorldState& s) {
   clear_forces(s);
   find_supported(s);
+  s.workspace.pressed_nets.find(s);
   ForceContext context = s.force_context();
   sum_force_shares(s.forces, context, {s.workspace.supported, s.workspace.held_particles},
-                   s.workspace.sums_before, s.workspace.books.shares);
+                   s.workspace.sums_before, s.workspace.books.shares,
+                   [&s](size_t slot) { return s.workspace.pressed_nets.pulls(slot); });
 }
 
 /// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
@@ -245,7 +247,7 @@ Status run_stages(WorldState& s) {
     if (const Status moved = move_fluids(s); !moved) return moved;
     carry_on_grains(s);
     if (const Status made = append_colliding(s); !made) return made;
-    s.workspace.pressed_nets.find(s);
+    s.workspace.pressed_nets.tie_blocks(s.bodies.bodies);
     if (stop_requested()) return stopped_error();
     if (!s.blocks.empty()) s.roster.forget();
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());

@@ -25,6 +25,11 @@ Result<std::shared_ptr<const Shape>> ParticleBlocks::ball(double radius) {
   return made;
 }
 
+bool ParticleBlocks::has_blocks(Which which, const ParticleSystem& p) {
+  if (p.fast || p.fluid) return false;
+  return which != Which::colliding || (p.collide && !p.grains);
+}
+
 Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& ids,
                               std::span<const ParticleSystem> systems,
                               std::vector<RigidBody>& bodies) {
@@ -34,8 +39,7 @@ Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& 
   std::shared_ptr<const Shape> shape;
   for (uint32_t s = 0; s < systems.size(); ++s) {
     const ParticleSystem& p = systems[s];
-    if (!ids.alive(s) || p.fast || p.fluid) continue;
-    if (which == Which::colliding && (!p.collide || p.grains)) continue;
+    if (!ids.alive(s) || !has_blocks(which, p)) continue;
     first_of_[s] = uint32_t(bodies.size());
     Material material;
     material.friction = p.friction;

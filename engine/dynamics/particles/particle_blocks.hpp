@@ -24,6 +24,8 @@ class ParticleBlocks {
     colliding
   };  ///< colliding ones are neither fast nor grains
 
+  /// Whether a system has blocks among these.
+  static bool has_blocks(Which which, const ParticleSystem& system);
   /// Appends the particles of systems, with the forces on them; systems that do not collide have no
   /// shapes.
   Status append(Which which, const HandlePool<ParticleSystemTag>& ids,

@@ -70,6 +70,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   const double kick = island.kick = halves ? 0.5 * hs : hs;
   island.joint_softness = joint_softness(hs);
   prepare_rows(c, island, hs);
+  prepare_springs(c, island);
   prepare_joints(c, island, hs);
   const bool measured = !island.joints.empty() && bounces(island);
   double taken = 0;
@@ -109,6 +110,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     sum_impulses(island);
   }
   end_substep(island, hs, bounce(c, island, hs, taken));
+  store_springs(c, island);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};
 }

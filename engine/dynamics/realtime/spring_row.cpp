@@ -8,24 +8,18 @@
 namespace tumble {
 namespace {
 
-/// Lever arm of an end now; of the world, the place.
 Vec3 arm_now(const SolverContext& c, const SolverBody& body, const SolvedSpring::End& end) {
-  if (end.slot == no_body || end.point.isZero(0)) return end.point;
+  if (end.slot == no_body) return Vec3::Zero();
   const Vec3 arm = c.bodies[end.slot].pose.direction(end.point);
   return arm + body.turn * arm;
 }
 
-/// q now.
 Vec3 extent(const SolverContext& c, const SolverIsland& island, const SpringRow& row) {
-  const SolvedSpring& spring = c.springs[row.source];
-  Vec3 q = Vec3::Zero();
-  for (uint32_t i = 0; i < row.count; ++i) {
-    const SolvedSpring::End& end = spring.end[i];
-    const SolverBody& body = island.bodies[row.body[i]];
-    Vec3 x = arm_now(c, body, end);
-    if (end.slot != no_body) x += c.bodies[end.slot].pose.x + body.dx;
-    q += row.weight[i] * x;
-  }
+  Vec3 q = row.start;
+  for (uint32_t i = 0; i < row.count; ++i) q += row.weight[i] * island.bodies[row.body[i]].dx;
+  if (row.turns == SpringRow::none) return q;
+  for (uint32_t i = 0; i < row.count; ++i)
+    q += row.weight[i] * arm_now(c, island.bodies[row.body[i]], c.springs[row.source].end[i]);
   return q;
 }
 
@@ -102,18 +96,31 @@ double solve_spring(const SolverIsland& island, SpringRow& row) {
 
 }  // namespace
 
-void start_springs(const SolverContext& c, const SolverIsland& island, double hs) {
+void prepare_springs(const SolverContext& c, const SolverIsland& island) {
   for (SpringRow& row : island.springs) {
     const SolvedSpring& spring = c.springs[row.source];
+    row.stiffness = spring.stiffness;
+    row.damping = spring.damping;
+    row.rest_length = spring.rest_length;
+    row.start = row.sum = row.elastic = Vec3::Zero();
+    for (uint32_t i = 0; i < row.count; ++i) {
+      const SolvedSpring::End& end = spring.end[i];
+      row.start += end.weight * (end.slot == no_body ? end.point : c.bodies[end.slot].pose.x);
+    }
+    row.q = extent(c, island, row);
+  }
+}
+
+void start_springs(const SolverContext& c, const SolverIsland& island, double hs) {
+  for (SpringRow& row : island.springs) {
     row.impulse.setZero();
-    const Vec3 q = extent(c, island, row);
-    const double length = q.norm(), k = spring.stiffness;
-    if (length > 0) row.n = q / length;
+    const double length = row.q.norm(), k = row.stiffness;
+    if (length > 0) row.n = row.q / length;
     // Without a length a spring that has one at rest has no direction to push in.
-    const bool acts = length > 0 || spring.rest_length == 0;
-    const double slack = length > 0 ? spring.rest_length / length : 0;
-    const double aim = acts ? hs * k * (length - spring.rest_length) : 0;
-    const double along = acts ? hs * (hs * k + spring.damping) : 0;
+    const bool acts = length > 0 || row.rest_length == 0;
+    const double slack = length > 0 ? row.rest_length / length : 0;
+    const double aim = acts ? hs * k * (length - row.rest_length) : 0;
+    const double along = acts ? hs * (hs * k + row.damping) : 0;
     const double across = acts ? hs * hs * k * std::max(0.0, 1 - slack) : 0;
     set_response(c, island, along, across, aim, row);
   }
@@ -130,17 +137,24 @@ double sweep_springs(const SolverIsland& island, bool back) {
 }
 
 void sum_springs(const SolverContext& c, const SolverIsland& island, double hs) {
-  for (const SpringRow& row : island.springs) {
-    SolvedSpring& spring = c.springs[row.source];
-    spring.impulse += row.impulse;
-    const Vec3 q = extent(c, island, row);
-    const double length = q.norm();
-    const double slack = length > 0 ? spring.rest_length / length : 0;
-    spring.elastic += (hs * spring.stiffness * (1 - slack)) * q;
+  for (SpringRow& row : island.springs) {
+    row.sum += row.impulse;
+    row.q = extent(c, island, row);
+    const double length = row.q.norm();
+    const double slack = length > 0 ? row.rest_length / length : 0;
+    row.elastic += (hs * row.stiffness * (1 - slack)) * row.q;
     if (row.turns == SpringRow::none) continue;
+    SolvedSpring& spring = c.springs[row.source];
     for (uint32_t i = 0; i < row.count; ++i)
       spring.end[i].moment -=
           row.weight[i] * island.spring_turns[row.turns].arm[i].cross(row.impulse);
+  }
+}
+
+void store_springs(const SolverContext& c, const SolverIsland& island) {
+  for (const SpringRow& row : island.springs) {
+    c.springs[row.source].impulse = row.sum;
+    c.springs[row.source].elastic = row.elastic;
   }
 }
 

@@ -41,14 +41,17 @@ struct SpringRow {
   std::array<uint32_t, SolvedSpring::most_ends> body{};  ///< solver bodies
   std::array<double, SolvedSpring::most_ends> weight{};
   uint32_t count = 0;
-  uint32_t source = 0;    ///< SolverContext::springs
-  uint32_t turns = none;  ///< SpringTurn of one that turns a body
-  Vec3 n = Vec3::UnitX();
-  Vec3 aim = Vec3::Zero();  ///< (1 + E W)^-1 h k (l - l0) n [N s]
-  double along = 0,
-         across = 0;    ///< (1 + E W)^-1 E along n and across it, of one that turns none [kg]
-  double mobility = 0;  ///< W, likewise [1/kg]
-  Vec3 impulse = Vec3::Zero();  ///< P of the sub-step [N s]
+  uint32_t source = 0;                                 ///< SolverContext::springs
+  uint32_t turns = none;                               ///< SpringTurn of one that turns a body
+  double stiffness = 0, damping = 0, rest_length = 0;  ///< SolvedSpring
+  Vec3 start = Vec3::Zero();  ///< q at the start of the step but for lever arms [m]
+  Vec3 q = Vec3::Zero();      ///< now [m]
+  Vec3 n = Vec3::UnitX();     ///< along q at the start of the sub-step
+  Vec3 aim = Vec3::Zero();    ///< (1 + E W)^-1 h k (l - l0) n [N s]
+  /// (1 + E W)^-1 E along n and across it, and W, of one that turns none [kg], [1/kg].
+  double along = 0, across = 0, mobility = 0;
+  Vec3 impulse = Vec3::Zero();                      ///< P of the sub-step [N s]
+  Vec3 sum = Vec3::Zero(), elastic = Vec3::Zero();  ///< of the sub-steps so far: SolvedSpring
 };
 
 /// What a spring needs besides that turns a body.
@@ -61,12 +64,16 @@ struct SpringTurn {
 struct SolverContext;
 struct SolverIsland;
 
-/// Rows at the present poses for a sub-step of `hs` seconds, without impulses.
+/// Fills the rows, which come with bodies, weights, count, source and turns set.
+void prepare_springs(const SolverContext& context, const SolverIsland& island);
+/// Makes ready for a sub-step of `hs` seconds, without impulses.
 void start_springs(const SolverContext& context, const SolverIsland& island, double hs);
 /// One sweep over the springs of an island, there or back. Gives by how much impulses changed, as
 /// the sum of their squares in the norm of kinetic energy [J].
 double sweep_springs(const SolverIsland& island, bool back);
 /// When positions have moved: adds the impulses of the sub-step to those of the step.
 void sum_springs(const SolverContext& context, const SolverIsland& island, double hs);
+/// Writes these back.
+void store_springs(const SolverContext& context, const SolverIsland& island);
 
 }  // namespace tumble

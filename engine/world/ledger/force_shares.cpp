@@ -96,7 +96,7 @@ void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContex
   thread_local NetPulls pulls;
   springs.clear();
   for (size_t i = 0; i < forces.size(); ++i)
-    if (forces[i] && (!filter || filter(*forces[i]))) springs.add(*forces[i], i);
+    if (forces[i] && is_spring(*forces[i]) && (!filter || filter(i))) springs.add(*forces[i], i);
   if (stop_requested()) return;
   pull_springs(springs.all(), context, supports, pulls);
   if (stop_requested()) return;

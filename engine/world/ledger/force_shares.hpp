@@ -65,8 +65,8 @@ struct SumsBefore {
   std::vector<std::vector<Vec3>> particles;
 };
 
-/// Which springs and meshes are taken; all where it is empty.
-using SpringFilter = std::function<bool(const ForceDef&)>;
+/// Which springs and meshes are taken, by slot; all where it is empty.
+using SpringFilter = std::function<bool(size_t slot)>;
 
 /// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
 /// Springs come last and all together, as they see the other forces; `supports` as in
