@@ -108,8 +108,7 @@ struct Workspace {
   PairFilter apart;             ///< of the present tick
   std::vector<BodyLink> links;  ///< of body_links()
   SumsBefore sums_before;
-  std::vector<uint8_t> supported;            ///< by slot, for springs: see NetSupports
-  std::vector<HeldParticle> held_particles;  ///< likewise
+  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
   PressedNets pressed_nets;
   SleepScratch sleep_scratch;
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time

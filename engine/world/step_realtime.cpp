@@ -4,6 +4,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "engine/world/apart.hpp"
 #include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
 #include "engine/world/courses.hpp"
@@ -12,7 +13,6 @@
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
 #include "engine/world/grains.hpp"
-#include "engine/world/held_particles.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -45,11 +45,9 @@ void clear_forces(WorldState& s) {
 /// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
 void find_supported(WorldState& s) {
   s.workspace.supported.clear();
-  s.workspace.held_particles.clear();
   const bool springs =
       std::ranges::any_of(s.forces, [](const auto& force) { return force && is_spring(*force); });
   if (!springs) return;
-  find_held_particles(s, s.workspace.held_particles);
   s.workspace.supported.resize(s.bodies.bodies.size(), 0);
   s.contacts.for_each([&s](const Contact& c) {
     if (c.pressed()) s.workspace.supported[c.key.body_a] = s.workspace.supported[c.key.body_b] = 1;
@@ -64,8 +62,8 @@ void sum_forces(WorldState& s) {
   find_supported(s);
   s.workspace.pressed_nets.find(s);
   ForceContext context = s.force_context();
-  sum_force_shares(s.forces, context, {s.workspace.supported, s.workspace.held_particles},
-                   s.workspace.sums_before, s.workspace.books.shares,
+  sum_force_shares(s.forces, context, s.workspace.supported, s.workspace.sums_before,
+                   s.workspace.books.shares,
                    [&s](size_t slot) { return s.workspace.pressed_nets.pulls(slot); });
 }
 

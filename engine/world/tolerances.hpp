@@ -28,11 +28,6 @@ inline constexpr double ordinary_overlap = 1e-3;
 inline constexpr double meeting_distance = 1e-6;
 /// A particle that comes nearer faster than this collides [m/s].
 inline constexpr double approaching_speed = 1e-9;
-/// A dynamic body of so many times the mass of a particle holds it [-]: what the particle does to
-/// it in a tick may be left to the next.
-inline constexpr double holding_mass_ratio = 20;
-/// A particle rubs along where its friction is within this share of the largest [-].
-inline constexpr double near_slipping = 0.999;
 
 /// A net of springs takes sub-steps where the ends of one pass by more than this share of its
 /// length in a tick [-]: the direction that it has at the start says nothing of the end.

@@ -1,8 +1,10 @@
 // The scene spring_net. References: the net's rest as the least of its energy, found here by
 // Newton's method with a line search from the springs' lengths alone (force left below 1e-11 N);
-// the balance of the books.
+// the balance of the books. And the particles of scenes/README.md: the energy that there is to fall
+// for.
 #include "engine/math/dense.hpp"
 #include "engine/world/world.hpp"
+#include "tests/scene/scene_text.hpp"
 #include "tests/scene/shipped_scene.hpp"
 #include "tests/support/dense.hpp"
 
@@ -109,4 +111,22 @@ TEST_CASE("spring_net: it comes to rest where its energy is least, and the books
   CHECK(sag > 0.1);
   CHECK(worst < 1e-9);
   CHECK(s.world->frame()->ledger->drift() < 1e-5);
+}
+
+TEST_CASE("the lump of dust of the README meets the ground and gains no energy" *
+          doctest::test_suite("long")) {
+  const std::string path = std::string(TUMBLE_SOURCE_DIR) + "/tests/inputs/readme_dust.json";
+  const SceneRead read = read_scene(file_text(path), path);
+  REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
+  auto built = build_world(read.scene);
+  REQUIRE(built.ok());
+  double least = built->world->frame()->stats.energies.total();
+  CHECK(least > 100);
+  while (built->world->time() < 0.9) {
+    REQUIRE(built->world->step().ok());
+    const double now = built->world->frame()->stats.energies.total();
+    CHECK(now < least + 0.5);
+    least = std::min(least, now);
+  }
+  CHECK(least < 60);  // it has landed
 }

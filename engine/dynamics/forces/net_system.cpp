@@ -128,49 +128,6 @@ void NetSystem::invert_diagonal() {
   }
 }
 
-/// Nodes that are held begin with the velocity of what holds them.
-void NetSystem::start_holds() {
-  const size_t count = net_->nodes.size();
-  held_.clear();
-  free_.assign(count, Mat3::Identity());
-  presses_.assign(count, 0);
-  sticks_.assign(count, 0);
-  change_.assign(pattern_.blocks, Vec3::Zero());
-  for (uint32_t k = 0; k < count; ++k) {
-    const SpringNet::Node::Hold& hold = net_->nodes[k].hold;
-    if (!hold.presses) continue;
-    held_.push_back(k);
-    presses_[k] = 1;
-    sticks_[k] = hold.sticks;
-    free_[k] = hold.sticks ? Mat3(Mat3::Zero())
-                           : Mat3(Mat3::Identity() - hold.normal * hold.normal.transpose());
-    change_[pattern_.of_node[k].moves] = hold.dv - free_[k] * hold.dv;
-  }
-}
-
-/// Lets go what would have to pull or rub too much. `residual` is, with its sign reversed, the
-/// impulse that the holds give.
-bool NetSystem::let_go(std::span<const Vec3> residual) {
-  bool any = false;
-  for (const uint32_t k : held_) {
-    if (!presses_[k]) continue;
-    const SpringNet::Node::Hold& hold = net_->nodes[k].hold;
-    const Vec3 impulse = -residual[pattern_.of_node[k].moves];
-    const double pressure = hold.normal.dot(impulse);
-    const double rubs = (impulse - pressure * hold.normal).norm();
-    if (pressure < 0) {
-      presses_[k] = sticks_[k] = 0;
-      free_[k] = Mat3::Identity();
-      any = true;
-    } else if (sticks_[k] && rubs > hold.friction * pressure) {
-      sticks_[k] = 0;
-      free_[k] = Mat3::Identity() - hold.normal * hold.normal.transpose();
-      any = true;
-    }
-  }
-  return any;
-}
-
 Vec3 NetSystem::velocity(const SpringNet::End& end, const std::vector<Vec3>& x) const {
   const NetPattern::Blocks blocks = pattern_.blocks_of(end);
   if (blocks.moves == NetPattern::none) return Vec3::Zero();
@@ -223,13 +180,6 @@ void NetSystem::residual(std::vector<Vec3>& out) const {
   }
 }
 
-void NetSystem::project(std::vector<Vec3>& r) const {
-  for (const uint32_t k : held_) {
-    Vec3& at = r[pattern_.of_node[k].moves];
-    at = free_[k] * at;
-  }
-}
-
 /// In the norm of the inverted diagonal.
 double NetSystem::size(std::span<const Vec3> r) const {
   double sum = 0;
@@ -252,10 +202,6 @@ void NetSystem::apply(std::span<const Float4> x, std::span<Float4> y) const {
 
 void NetSystem::precondition(std::span<const Float4> r, std::span<Float4> y) const {
   for (size_t i = 0; i < r.size(); ++i) y[i] = inverse_[i].combine(r[i]);
-  for (const uint32_t k : held_) {
-    Float4& at = y[pattern_.of_node[k].moves];
-    at = columns_of(free_[k]).combine(at);
-  }
 }
 
 /// Adds to change_ what solves for r, until so much of it is left; counts steps.
@@ -271,10 +217,6 @@ int NetSystem::correct(std::span<const Vec3> r, double target) {
   while (steps < tolerances::most_mesh_net_steps && ry > target * target) {
     if (stop_requested()) break;
     apply(p_, product_);
-    for (const uint32_t k : held_) {
-      Float4& at = product_[pattern_.of_node[k].moves];
-      at = columns_of(free_[k]).combine(at);
-    }
     const double curvature = dot(p_, product_);
     if (!(curvature > 0)) break;  // rounding is all that is left
     const Float4 alpha(float(ry / curvature));
@@ -304,22 +246,12 @@ void NetSystem::solve(const SpringNet& net, SpringNet::Answer& out) {
   pattern_.find(net);
   put_together();
   invert_diagonal();
-  start_holds();
+  change_.assign(pattern_.blocks, Vec3::Zero());
   out.report = {};
   double reference = 0;
   for (int round = 0; round < tolerances::most_mesh_net_rounds; ++round) {
     residual(r_);
-    if (round > 0) let_go(r_);
-    impulses_ = r_;
-    project(r_);
-    double left = size(r_);
-    // Holds are looked at when the rest is solved: where they take all, at once.
-    if (round == 0 && left <= tolerances::mesh_net_residual * size(impulses_) &&
-        let_go(impulses_)) {
-      r_ = impulses_;
-      project(r_);
-      left = size(r_);
-    }
+    const double left = size(r_);
     if (round == 0) {
       std::vector<Vec3> weight(pattern_.blocks, Vec3::Zero());
       for (size_t k = 0; k < net.nodes.size(); ++k)
@@ -367,7 +299,6 @@ void NetSystem::answer(SpringNet::Answer& out) const {
 void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
   std::vector<Vec3> r;
   residual(r);
-  project(r);
   const size_t count = net_->nodes.size();
   force.assign(count, Vec3::Zero());
   torque.assign(count, Vec3::Zero());
@@ -380,10 +311,10 @@ void NetSystem::rest(std::vector<Vec3>& force, std::vector<Vec3>& torque) const 
   if (!is_held()) take_rigid_motion(r, force, torque);
 }
 
-/// Whether contacts or points that nothing moves hold some of its nodes.
+/// Whether points that nothing moves hold some of its nodes.
 bool NetSystem::is_held() const {
   const auto is_fixed = [](const SpringNet::End& end) { return end.node == SpringNet::fixed; };
-  bool held = !held_.empty();
+  bool held = false;
   for (const SpringNet::Tie& tie : net_->ties) held = held || is_fixed(tie.a) || is_fixed(tie.b);
   for (const SpringNet::Stencil& s : net_->stencils)
     for (uint32_t i = 0; i < s.count; ++i) held = held || is_fixed(s.end[i]);

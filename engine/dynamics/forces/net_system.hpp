@@ -12,8 +12,7 @@ namespace tumble {
 /// The system of SpringNet for nets with meshes. The matrix is put together in 3 x 3 blocks, two to
 /// a body that turns. It is solved by conjugate gradients with the inverted blocks of its diagonal
 /// as preconditioner, in single precision; what is left is found in double precision from the rows
-/// and solved for again, until it is small. Nodes that contacts hold move in the part of space that
-/// is left to them; a hold that would have to pull, or to rub more than friction does, is let go.
+/// and solved for again, until it is small.
 class NetSystem {
  public:
   void solve(const SpringNet& net, SpringNet::Answer& out);
@@ -25,11 +24,8 @@ class NetSystem {
   const uint32_t* put_bow(size_t i, const uint32_t* place);
   void add_turning(const SpringNet::End& end, double turn);
   void invert_diagonal();
-  void start_holds();
-  bool let_go(std::span<const Vec3> residual);
   void residual(std::vector<Vec3>& out) const;
   double size(std::span<const Vec3> r) const;
-  void project(std::vector<Vec3>& r) const;
   int correct(std::span<const Vec3> r, double target);
   void apply(std::span<const Float4> x, std::span<Float4> y) const;
   void precondition(std::span<const Float4> r, std::span<Float4> y) const;
@@ -51,11 +47,8 @@ class NetSystem {
   std::vector<Mat3> diagonal_;    ///< by block
   std::vector<Rows3> diagonal4_;  ///< the same in single precision
   std::vector<Rows3> inverse_;
-  std::vector<Mat3> free_;                 ///< by node: projects onto what holds leave
-  std::vector<uint32_t> held_;             ///< nodes that are held
-  std::vector<uint8_t> presses_, sticks_;  ///< by node, as taken now
-  std::vector<Vec3> change_;               ///< of the velocities, by block
-  std::vector<Vec3> r_, impulses_;         ///< the residual: projected, and whole
+  std::vector<Vec3> change_;  ///< of the velocities, by block
+  std::vector<Vec3> r_;       ///< the residual
   std::vector<Float4> residual_, y_, p_, product_, correction_;
 };
 

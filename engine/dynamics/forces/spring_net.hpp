@@ -34,14 +34,6 @@ struct SpringNet {
     // Of nets with meshes:
     bool meshed = false;    ///< it is a node of a mesh
     Vec3 x = Vec3::Zero();  ///< where it is, ahead by the lead [m]
-    /// What a contact pressed in the step before: it keeps the node's velocity along `normal` that
-    /// of the other surface, and with `sticks` across it too, as long as it presses and rubs.
-    struct Hold {
-      bool presses = false, sticks = false;
-      Vec3 normal = Vec3::UnitY();  ///< unit, out of the surface
-      Vec3 dv = Vec3::Zero();       ///< to the velocity of the surface [m/s]
-      double friction = 0;          ///< [-]
-    } hold;
   };
   struct End {
     uint32_t node = fixed;    ///< or something that no spring moves
@@ -108,7 +100,7 @@ struct SpringNet {
   /// The pull of each tie. Ties of length zero do not pull: their direction is undefined.
   Report solve(std::vector<Pull>& out) const;
   /// The same for nets with meshes, which are large: by a matrix that is put together, in mixed
-  /// precision (NetSystem), with what contacts hold.
+  /// precision (NetSystem).
   void solve_meshed(Answer& out) const;
 };
 

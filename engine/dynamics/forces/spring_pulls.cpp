@@ -22,9 +22,9 @@ struct Held {
 /// Gives numbers to what springs can move: bodies by slot, and particles behind them.
 class NodeNumbers {
  public:
-  void start(const ForceContext& context, const NetSupports& supports) {
+  void start(const ForceContext& context, std::span<const uint8_t> supported) {
     context_ = &context;
-    supports_ = supports;
+    supported_ = supported;
     nodes.clear();
     first_.clear();
     size_t next = context.bodies.bodies.size();
@@ -49,8 +49,7 @@ class NodeNumbers {
     } else if (anchor.kind == Anchor::Kind::particle) {
       const ParticleSystem& p = context_->particles[anchor.particles.index];
       const size_t i = p.find(anchor.particle);
-      out.node = node(first_[anchor.particles.index] + i,
-                      [&] { return node_of(p, anchor.particles.index, i); });
+      out.node = node(first_[anchor.particles.index] + i, [&] { return node_of(p, i); });
       out.mobility = Mat3::Identity() / p.mass[i];
     }
     return out;
@@ -72,7 +71,7 @@ class NodeNumbers {
     out.mass = body.mass;
     out.turns = !body.inverse_inertia_body.isZero(0);
     const size_t slot = size_t(&body - context_->bodies.bodies.data());
-    const bool free = slot >= supports_.bodies.size() || !supports_.bodies[slot];
+    const bool free = slot >= supported_.size() || !supported_[slot];
     const double h = context_->h;
     out.x = body.pose.x + context_->lead * body.v;
     if (free)
@@ -83,18 +82,11 @@ class NodeNumbers {
     if (free) out.domega_free = h * (body.inverse_inertia_world() * body.torque);
     return out;
   }
-  SpringNet::Node node_of(const ParticleSystem& p, uint32_t system, size_t i) const {
+  SpringNet::Node node_of(const ParticleSystem& p, size_t i) const {
     SpringNet::Node out;
     out.mass = p.mass[i];
     out.x = p.x[i] + context_->lead * p.v[i];
     out.dv_free = context_->h * (p.gravity_scale * context_->gravity + p.force[i] / p.mass[i]);
-    const std::pair wanted{system, i};
-    const auto held =
-        std::ranges::lower_bound(supports_.particles, wanted, {}, [](const HeldParticle& h) {
-          return std::pair{h.system, h.index};
-        });
-    if (held != supports_.particles.end() && std::pair{held->system, held->index} == wanted)
-      out.hold = held->hold;
     return out;
   }
   static Mat3 mobility_of(const RigidBody& body, const Vec3& arm) {
@@ -103,7 +95,7 @@ class NodeNumbers {
   }
 
   const ForceContext* context_ = nullptr;
-  NetSupports supports_;
+  std::span<const uint8_t> supported_;
   std::vector<size_t> first_;     ///< by particle system: number of its first particle
   std::vector<uint32_t> number_;  ///< of the node
 };
@@ -151,8 +143,8 @@ class NetMaker {
  public:
   /// Valid until the next call.
   std::span<NumberedNet> make(const NetSprings& springs, const ForceContext& context,
-                              const NetSupports& supports) {
-    numbers_.start(context, supports);
+                              std::span<const uint8_t> supported) {
+    numbers_.start(context, supported);
     ties_.clear();
     of_.clear();
     stencils_.clear();
@@ -328,7 +320,7 @@ void take_answer(const NumberedNet& net, const SpringNet::Answer& answer, const 
 }  // namespace
 
 void pull_springs(const NetSprings& springs, const ForceContext& context,
-                  const NetSupports& supports, NetPulls& out) {
+                  std::span<const uint8_t> supported, NetPulls& out) {
   out.springs.assign(springs.springs.size(), {});
   out.meshes.resize(springs.meshes.size());
   for (size_t m = 0; m < springs.meshes.size(); ++m)
@@ -337,7 +329,7 @@ void pull_springs(const NetSprings& springs, const ForceContext& context,
   thread_local NetMaker maker;
   thread_local std::vector<SpringNet::Pull> pulls;
   thread_local std::vector<SpringNet::Answer> answers;
-  const std::span<NumberedNet> nets = maker.make(springs, context, supports);
+  const std::span<NumberedNet> nets = maker.make(springs, context, supported);
   answers.resize(std::max(answers.size(), nets.size()));
   for (size_t n = 0; n < nets.size(); ++n) {
     if (stop_requested()) return;

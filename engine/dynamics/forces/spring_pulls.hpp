@@ -14,20 +14,6 @@ struct NetSprings {
   std::span<const SpringMeshDef* const> meshes;
 };
 
-/// A particle that a contact pressed in the tick before.
-struct HeldParticle {
-  uint32_t system = 0;
-  size_t index = 0;
-  SpringNet::Node::Hold hold;
-};
-
-/// What held things in the tick before: springs expect gravity and other forces to move only what
-/// is free. None: all is.
-struct NetSupports {
-  std::span<const uint8_t> bodies;          ///< by slot, not 0 where contacts or joints held a body
-  std::span<const HeldParticle> particles;  ///< ascending, each once; only meshes ask
-};
-
 /// What a mesh does to one of its nodes, as a mean over the tick.
 struct NodePull {
   Vec3 force = Vec3::Zero();    ///< [N]
@@ -42,9 +28,10 @@ struct NetPulls {
 
 /// What springs do over a tick, each net of connected springs solved by itself and at once:
 /// nothing where an end is gone. Other forces must be in the sums by then; the pulls are not added
-/// to them.
+/// to them. `supported` says by slot, not 0, which bodies contacts or joints held in the tick
+/// before: springs expect gravity and other forces to move only what is free; empty: all is.
 void pull_springs(const NetSprings& springs, const ForceContext& context,
-                  const NetSupports& supports, NetPulls& out);
+                  std::span<const uint8_t> supported, NetPulls& out);
 
 /// Adds a pull to the force and torque sums of what the spring is tied to.
 void add_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context);

@@ -90,7 +90,7 @@ void share_end(const Anchor& end, const Vec3& force, const Vec3& held, const Vec
 }
 
 void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                 const NetSupports& supports, const SpringFilter& filter,
+                 std::span<const uint8_t> supported, const SpringFilter& filter,
                  std::vector<ForceShare>& shares) {
   thread_local SpringsInSlots springs;
   thread_local NetPulls pulls;
@@ -98,7 +98,7 @@ void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContex
   for (size_t i = 0; i < forces.size(); ++i)
     if (forces[i] && is_spring(*forces[i]) && (!filter || filter(i))) springs.add(*forces[i], i);
   if (stop_requested()) return;
-  pull_springs(springs.all(), context, supports, pulls);
+  pull_springs(springs.all(), context, supported, pulls);
   if (stop_requested()) return;
   springs.share(pulls, context, shares);
 }
@@ -153,7 +153,7 @@ void ForceShare::to_blocks(const ParticleBlocks& blocks) {
 }
 
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      const NetSupports& supports, SumsBefore& scratch,
+                      std::span<const uint8_t> supported, SumsBefore& scratch,
                       std::vector<ForceShare>& shares, const SpringFilter& filter) {
   shares.resize(forces.size());
   for (size_t i = 0; i < forces.size(); ++i) {
@@ -166,7 +166,7 @@ void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceC
     else
       add_anchored(*forces[i], ends, context, shares[i]);
   }
-  add_springs(forces, context, supports, filter, shares);
+  add_springs(forces, context, supported, filter, shares);
 }
 
 }  // namespace tumble

@@ -69,10 +69,10 @@ struct SumsBefore {
 using SpringFilter = std::function<bool(size_t slot)>;
 
 /// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
-/// Springs come last and all together, as they see the other forces; `supports` as in
+/// Springs come last and all together, as they see the other forces; `supported` as in
 /// pull_springs().
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
-                      const NetSupports& supports, SumsBefore& scratch,
+                      std::span<const uint8_t> supported, SumsBefore& scratch,
                       std::vector<ForceShare>& shares, const SpringFilter& filter = {});
 
 }  // namespace tumble
