@@ -20,7 +20,7 @@ constexpr uint32_t body_count = 24;
 Contact contact(uint32_t a, uint32_t b, uint64_t part, int count, double depth) {
   Contact c;
   static_cast<ContactHead&>(c) = {};
-  c.key = {std::min(a, b), 0, std::max(a, b), 0, part};
+  c.key = {std::min(a, b), std::max(a, b), 0, 0, part};
   c.count = count;
   for (int i = 0; i < count; ++i) {
     c.points[size_t(i)] = {};
@@ -110,7 +110,8 @@ struct Both {
       const uint32_t a = any(), b = any();
       if (a == b || (a % 3 == 0 && b % 3 == 0)) continue;
       if (r.below(3) == 0)
-        news.seen.push_back({{std::min(a, b), uint32_t(next_part++), std::max(a, b), 0, 0}, {}, 1});
+        news.seen.push_back(
+            {{std::min(a, b), std::max(a, b), uint32_t(next_part++), 0, 0}, {}, 1, {}, false});
       else
         news.contacts.push_back(contact(a, b, next_part++, int(r.below(5)), double(r.below(9))));
     }

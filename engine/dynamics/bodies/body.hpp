@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/bounds_tree.hpp"
 #include "engine/collision/shape.hpp"
 #include "engine/core/handle.hpp"
 #include "engine/dynamics/bodies/mesh_source.hpp"
@@ -158,6 +159,8 @@ struct RigidBody {
   double bounding_radius = 0;       ///< about the centre of mass [m]
   double inner_radius = 0;          ///< inner_radius_of; 0 of fixed ones [m]
   std::vector<BodyShape> shapes;
+  /// Over the bounds of its shapes, in the frame of `pose`; null where it has one or none.
+  std::shared_ptr<const BoundsTree> tree;
   std::shared_ptr<const std::vector<DrawnShape>> drawn;  ///< null: the shapes
 
   bool dynamic() const { return type == BodyType::dynamic; }

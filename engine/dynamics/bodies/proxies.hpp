@@ -18,17 +18,18 @@ struct ShapeRef {
   uint32_t shape = 0;  ///< index into RigidBody::shapes
 };
 
-/// The proxies of all live shapes, ordered by body slot and shape; refs[i] says whose proxies[i]
-/// is.
+/// The proxies of all live bodies that have shapes, one for each, or one for each of their shapes;
+/// ordered by body slot and shape. refs[i] says whose proxies[i] is, which of a body is its first
+/// shape's.
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
   std::vector<uint32_t> first;   ///< by body slot: its first proxy; and the end
-  std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several shapes
+  std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several proxies
   ProxyNews news;                ///< of the last update
   bool moving_meshes = true;     ///< false: no dynamic body has a triangle mesh
 
-  uint32_t shapes_of(uint32_t body) const { return first[body + 1] - first[body]; }
+  uint32_t proxies_of(uint32_t body) const { return first[body + 1] - first[body]; }
 };
 
 /// How far apart two surfaces may be for a contact to be foreseen [m]: `margin`, less for small
@@ -50,11 +51,12 @@ struct ShapeTurning {
 };
 ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h);
 
-/// Makes room for the proxies of every body, and says where it is.
-void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
+/// Makes room for a proxy of every shape, and says where it is.
+void number_shape_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
 
-/// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
-/// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
+/// Fills the proxies of bodies: bounds of all shapes over the tick [0, h] in which a body moves by
+/// v + h a and turns by omega, widened by `margin`. A proxy is `moving` when its body seeks
+/// contacts.
 /// `gravity` is the uniform acceleration [m/s2]. On the threads of the crew, if there is one.
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew = nullptr);
@@ -68,7 +70,7 @@ struct Crowd {
   uint32_t slot;
   Error error;
 };
-/// Empty where a tick can hold the pairs of these shapes.
+/// Empty where a tick can hold these pairs.
 std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs);
 
 }  // namespace tumble

@@ -12,10 +12,10 @@
 namespace tumble {
 
 /// What a contact is between; the order in which contacts are kept, summed and solved. body_a is
-/// the lower slot.
+/// the lower slot. Where shapes of one body share a contact, it is named by the first of them.
 struct ContactKey {
-  uint32_t body_a = 0, shape_a = 0;
-  uint32_t body_b = 0, shape_b = 0;
+  uint32_t body_a = 0, body_b = 0;
+  uint32_t shape_a = 0, shape_b = 0;
   uint64_t part = 0;  ///< Manifold::part
 
   friend auto operator<=>(const ContactKey&, const ContactKey&) = default;
@@ -73,12 +73,21 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 
-/// Where two bodies were against each other when the narrow phase last looked at a pair of their
-/// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
+/// Where two bodies were against each other when the narrow phase last looked at them, or at two
+/// shapes of theirs. While they hardly move, what it saw is carried along; that nothing was seen,
+/// too.
 struct CachedPair {
-  ContactKey pair;    ///< part is 0
-  Pose relative;      ///< of the smaller shape's frame in the larger one's
-  double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
+  /// Of two bodies: shapes and part are 0. Where one of them has several shapes, those of shapes
+  /// follow that are near each other, whose part is `of_shapes`.
+  ContactKey pair;
+  Pose relative;  ///< of the smaller side's frame (PairSide::shape_pose) in the larger one's
+  /// All gaps up to here were found; where none was, there is none. Of two bodies of which one has
+  /// several shapes: no others are as near [m].
+  double margin = 0;
+  ClosestFeatures closest;  ///< of two shapes that touch: Manifold::closest
+  bool touch = false;       ///< of two shapes: gaps were found
+
+  static constexpr uint64_t of_shapes = 1;
 };
 
 /// Midway between the surfaces at point i, world axes [m].

@@ -69,9 +69,12 @@ void ContactSet::save(ByteWriter& out) const {
   out.value(uint64_t(seen.size()));
   for (const CachedPair& s : seen) {
     pair_of(out, s.pair);
+    out.value(s.pair.part);
     write(out, s.relative.x);
     out.value(s.relative.q.coeffs());
     out.value(s.margin);
+    for (const PolyhedronFeature& f : s.closest) out.value(f.kind), out.value(f.index);
+    out.value(uint8_t(s.touch));
   }
 }
 
@@ -105,9 +108,12 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
   for (uint64_t k = 0; k < looks && in.ok(); ++k) {
     CachedPair s;
     pair_of(in, s.pair);
+    in.value(s.pair.part);
     read(in, s.relative.x);
     in.value(s.relative.q.coeffs());
     in.value(s.margin);
+    for (PolyhedronFeature& f : s.closest) in.value(f.kind), in.value(f.index);
+    s.touch = in.get<uint8_t>() != 0;
     if (s.pair.body_a >= body_slots || s.pair.body_b >= body_slots) in.fail();
     now_.seen.push_back(s);
   }

@@ -69,8 +69,7 @@ size_t pairs_per_chunk(size_t pairs) {
 }
 
 bool same_pair(const ContactKey& a, const ContactKey& b) {
-  return a.body_a == b.body_a && a.shape_a == b.shape_a && a.body_b == b.body_b &&
-         a.shape_b == b.shape_b;
+  return a.body_a == b.body_a && a.body_b == b.body_b;
 }
 
 /// Walks through what was known before along with the pairs, which come in the same order.
@@ -92,8 +91,10 @@ class HistoryCursor {
     const auto begin = contact_;
     while (contact_ != contacts_.end() && same_pair(contact_->key, pair)) ++contact_;
     while (look_ != seen_.end() && look_->pair < pair) ++look_;
-    const bool known = look_ != seen_.end() && same_pair(look_->pair, pair);
-    return {{begin, contact_}, known ? &*look_ : nullptr};
+    const bool known = look_ != seen_.end() && look_->pair == pair;
+    const auto first = look_;
+    while (look_ != seen_.end() && same_pair(look_->pair, pair)) ++look_;
+    return {{begin, contact_}, known ? &*first : nullptr, {first + (known ? 1 : 0), look_}};
   }
 
  private:
@@ -203,25 +204,27 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
                             const PairContacts& finder, Chunk& out) {
   out.sources.clear();
   out.sights.manifolds.clear();
+  out.sights.shapes.clear();
   out.sights.seen.clear();
   out.contacts = out.looks = 0;
   HistoryCursor history(old.contacts, old.seen, finder.key(pairs.front()));
   for (const ProxyPair& pair : pairs) {
     if (stop_requested()) break;
     const PairSide &a = finder.sides[pair.a], &b = finder.sides[pair.b];
-    if (a.body == b.body || (!a.dynamic && !b.dynamic)) continue;
+    if (!a.dynamic && !b.dynamic) continue;
     const PairHistory before = history.at(finder.key(pair));
     Source source{pair, before.contacts};
     if (finder.knows(pair, before)) {
       source.look = before.seen;
-      source.contacts = uint32_t(before.contacts.size());
-      source.looks = 1;
+      source.carried = true;
+      source.looks = 1 + uint32_t(before.pieces.size());  // which follow it
     } else {
       const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
-      finder.look(pair, before, out.sights);
+      source.carried = finder.look(pair, before, out.sights);
       source.contacts = uint32_t(out.sights.manifolds.size() - manifolds);
       source.looks = uint32_t(out.sights.seen.size() - looks);
     }
+    if (source.carried) source.contacts = uint32_t(before.contacts.size());
     if (source.contacts + source.looks == 0) continue;
     out.contacts += source.contacts;
     out.looks += source.looks;
@@ -233,6 +236,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
 void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   chunk.stats = {};
   std::span<const Manifold> manifolds = chunk.sights.manifolds;
+  std::span<const ShapesOfPair> shapes = chunk.sights.shapes;
   auto look = chunk.sights.seen.begin();
   const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
@@ -248,15 +252,21 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
     at += source.contacts;
     if (source.look) {
       ++chunk.stats.carried;
-      *seen++ = *source.look;
+      seen = std::copy_n(source.look, source.looks, seen);
+    } else {
+      seen = std::copy_n(look, source.looks, seen);
+      look += source.looks;
+    }
+    if (source.carried) {
       std::ranges::copy(source.before, place.begin());
       for (Contact& c : place)
         carry_along(c, finder.sides[source.pair.a], finder.sides[source.pair.b]);
-      continue;
+    } else {
+      finder.make(source.pair, source.before, manifolds.first(place.size()),
+                  shapes.first(place.size()), place);
+      manifolds = manifolds.subspan(place.size());
+      shapes = shapes.subspan(place.size());
     }
-    finder.make(source.pair, source.before, manifolds.first(place.size()), place);
-    manifolds = manifolds.subspan(place.size());
-    for (uint32_t i = 0; i < source.looks; ++i) *seen++ = *look++;
   }
   count_points(contacts, chunk.stats);
 }
@@ -337,7 +347,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
   for_chunks(&crew, few ? paired_.size() : sides_.size(), [&](size_t, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const size_t i = few ? paired_[k] : k;
-      sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, margin);
+      sides_[i] = body_side(bodies, proxies.refs[i].body, {gravity, h, margin});
     }
   });
 }
@@ -367,7 +377,7 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   if (roused) merge(kept, roused_, both_);
   const ContactKnowledge& old = roused ? both_ : kept;
   take_sides(bodies, proxies, pairs, gravity, h, margin, crew);
-  const PairContacts finder{sides_, h, narrow_phase, hierarchy};
+  const PairContacts finder{sides_, bodies, {gravity, h, margin}, narrow_phase, hierarchy};
   crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;
     const size_t here = std::min(pairs.size() - begin, per_chunk);
@@ -421,7 +431,7 @@ void ContactSet::add_memory(MemoryUse& use) const {
   use.contacts += heap_bytes(sides_, paired_, chunks_);
   resting_.add_memory(use);
   for (const Chunk& c : chunks_)
-    use.contacts += heap_bytes(c.sources, c.sights.manifolds, c.sights.seen);
+    use.contacts += heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen);
 }
 
 void ContactSet::remove_body(uint32_t body) {

@@ -8,6 +8,7 @@
 #include "engine/dynamics/contact/contact.hpp"
 #include "engine/dynamics/contact/pair_side.hpp"
 #include "engine/dynamics/contact/resting_contacts.hpp"
+#include "engine/dynamics/contact/shape_pairs.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -18,16 +19,17 @@
 namespace tumble {
 
 struct ContactUpdateStats {
-  uint64_t pairs = 0;     ///< pairs of shapes whose bounds overlap
+  uint64_t pairs = 0;     ///< pairs of bodies whose bounds overlap
   uint64_t carried = 0;   ///< of them, those at which the narrow phase did not have to look again
   uint64_t contacts = 0;  ///< with at least one point
   uint64_t points = 0;
   double max_penetration = 0;  ///< [m]
 };
 
-/// What the narrow phase saw of some pairs.
+/// What the narrow phase saw of some pairs of bodies.
 struct Sights {
   std::vector<Manifold> manifolds;
+  std::vector<ShapesOfPair> shapes;  ///< of each manifold
   std::vector<CachedPair>
       seen;  ///< of pairs whose contacts may be carried along, or that are apart
 };
@@ -69,7 +71,7 @@ class ContactSet {
       for (const Contact& c : contacts) f(c);
     });
   }
-  /// Calls f(key) for all pairs of shapes that are known, more than once for some.
+  /// Calls f(key) for all pairs of bodies that are known, more than once for some.
   template <class F>
   void for_each_pair(const F& f) const {
     const auto each = [&f](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
@@ -117,9 +119,9 @@ class ContactSet {
   /// Where the contacts of a pair come from.
   struct Source {
     ProxyPair pair;
-    std::span<const Contact> before;  ///< those of the tick before
-    const CachedPair* look =
-        nullptr;  ///< null where the narrow phase looked: else they are carried
+    std::span<const Contact> before;   ///< those of the tick before
+    const CachedPair* look = nullptr;  ///< what is still known; null where the narrow phase looked
+    bool carried = false;              ///< the contacts are those of before, else made
     uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's manifolds and looks, in order
   };
   /// What one task finds.

@@ -34,7 +34,7 @@ Status RealtimeTick::find_pairs(double part) {
   update_proxies(bodies, roster, gravity, part, settings.speculative_margin, proxies, &crew);
   listener.bounds_known();
   broad_phase.use_threads(&crew);
-  broad_phase.set_owners(proxies.owners);
+  broad_phase.set_owners({});  // a proxy for each body
   broad_phase.find_pairs(proxies.proxies, proxies.news, pairs);
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;

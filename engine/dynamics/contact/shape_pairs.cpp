@@ -1,0 +1,116 @@
+#include "engine/dynamics/contact/shape_pairs.hpp"
+
+#include "engine/collision/mesh_pairs/mesh_surface.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
+#include "engine/dynamics/bodies/whole_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Calls f(i) for the shapes of a body whose bounds meet a box in the frame of its pose.
+template <class F>
+void for_shapes_in(const RigidBody& body, const Aabb& box, const F& f) {
+  if (!body.tree) {
+    f(0u);
+    return;
+  }
+  body.tree->overlapping(box, [&f](uint32_t i) {
+    f(i);
+    return true;
+  });
+}
+
+/// Whether a box in the frame of a mesh meets a leaf of its tree.
+bool meets_leaf(const MeshSurface& mesh, const Aabb& box) {
+  const AabbTree& tree = *mesh.tree;
+  const Aabb at = Aabb{box.min - tree.origin(), box.max - tree.origin()}.inflated(1e-6 * mesh.size);
+  static thread_local std::vector<uint32_t> waiting;
+  waiting.assign(1, 0);
+  while (!waiting.empty()) {
+    const uint32_t i = waiting.back();
+    waiting.pop_back();
+    const AabbTree::Node& n = tree.nodes()[i];
+    if (!at.overlaps({Vec3(n.min[0], n.min[1], n.min[2]), Vec3(n.max[0], n.max[1], n.max[2])}))
+      continue;
+    if (n.is_leaf()) return true;
+    waiting.push_back(n.start);
+    waiting.push_back(i + 1);
+  }
+  return false;
+}
+
+/// Whether one shape may be near the surface of another, which is no bounds' matter where this is a
+/// mesh. `pose` is that of the first in the frame of the body of the second.
+bool near_surface(const Shape& shape, const Pose& pose, const BodyShape& other, double reach) {
+  if (!other.shape->is_mesh()) return true;
+  const Aabb box = shape.bounds(other.pose.inverse() * pose).inflated(reach);
+  return meets_leaf(other.shape->polyhedral()->surface(), box);
+}
+
+/// How far two boxes are apart at least [m].
+double boxes_apart(const Aabb& a, const Aabb& b) {
+  const double d = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
+  return std::isfinite(d) ? d : 0;
+}
+
+/// How far the boxes about two bodies are apart at least, by the directions of their sides [m].
+double bodies_apart(const RigidBody& a, const RigidBody& b) {
+  const auto beyond = [](const RigidBody& one, const RigidBody& other) {
+    const Aabb box = whole_bounds(one, Pose()),
+               of_other = whole_bounds(other, one.pose.inverse() * other.pose);
+    return boxes_apart(box, of_other);
+  };
+  return std::max(beyond(a, b), beyond(b, a));
+}
+
+/// How far the bounds of shapes of two bodies are apart at least, of which the second has as many
+/// or more; up to the radius of the smaller body [m].
+double shapes_apart(const RigidBody& few, const RigidBody& many) {
+  if (!many.tree) return 0;
+  const Pose in_many = many.pose.inverse() * few.pose;
+  double apart = std::min(few.bounding_radius, many.bounding_radius);
+  for (const BodyShape& s : few.shapes) {
+    const Vec3 x = in_many.point(s.pose.x);
+    const double radius = s.shape->bounding_radius();
+    if (!std::isfinite(radius)) return 0;
+    many.tree->around(x, std::max(0.0, apart + radius), [&](uint32_t j) {
+      const Aabb other = many.shapes[j].shape->bounds(many.shapes[j].pose);
+      const double away = (other.min - x).cwiseMax(x - other.max).cwiseMax(0.0).norm() - radius;
+      apart = std::max(0.0, std::min(apart, away));
+      return apart + radius;
+    });
+  }
+  return apart;
+}
+
+}  // namespace
+
+double find_shape_pairs(const RigidBody& a, const RigidBody& b, double reach,
+                        std::vector<ShapesNear>& out) {
+  out.clear();
+  const double bodies = bodies_apart(a, b);
+  if (bodies > reach) return bodies;
+  const bool first = a.shapes.size() <= b.shapes.size();
+  const RigidBody &few = first ? a : b, &many = first ? b : a;
+  const Pose in_few = few.pose.inverse() * many.pose, in_many = many.pose.inverse() * few.pose;
+  for_shapes_in(few, whole_bounds(many, in_few).inflated(reach), [&](uint32_t i) {
+    const BodyShape& s = few.shapes[i];
+    const Pose there = in_many * s.pose;
+    const Aabb box = many.tree ? s.shape->bounds(there) : Aabb();
+    for_shapes_in(many, box.inflated(reach), [&](uint32_t j) {
+      const BodyShape& t = many.shapes[j];
+      if (!near_surface(*s.shape, there, t, reach) ||
+          !near_surface(*t.shape, in_few * t.pose, s, reach))
+        return;
+      const double apart = many.tree ? boxes_apart(box, t.shape->bounds(t.pose)) : 0;
+      out.push_back({first ? ShapesOfPair{i, j} : ShapesOfPair{j, i}, apart});
+    });
+  });
+  std::ranges::sort(out, {}, &ShapesNear::shapes);
+  return out.empty() ? std::max(reach, shapes_apart(few, many)) : reach;
+}
+
+}  // namespace tumble
