@@ -129,16 +129,16 @@ inline bool read_flag(ByteReader& in) {
   return in.get<uint8_t>() != 0;
 }
 
-inline void write_optional(ByteWriter& out, const std::optional<Vec3>& value) {
+template <class T>
+void write_optional(ByteWriter& out, const std::optional<T>& value) {
   out.value(uint8_t{value.has_value()});
-  out.value(value.value_or(Vec3::Zero()));
+  if (value) out.value(*value);
 }
 
-inline std::optional<Vec3> read_optional(ByteReader& in) {
-  const bool given = read_flag(in);
-  Vec3 value = Vec3::Zero();
-  in.value(value);
-  return given ? std::optional(value) : std::nullopt;
+template <class T>
+void read_optional(ByteReader& in, std::optional<T>& value) {
+  value.reset();
+  if (read_flag(in)) in.value(value.emplace());
 }
 
 }  // namespace tumble::byte_parts

@@ -77,22 +77,19 @@ void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
     out.value(s.material.restitution);
     out.value(s.material.density);
     out.value(s.material.surface_velocity);
-    out.value(s.material.rolling_friction);
-    out.value(s.material.torsional_friction);
+    write_optional(out, s.material.rolling_friction);
+    write_optional(out, s.material.torsional_friction);
   }
   write_sources(out, def, shapes);
-  out.value(uint8_t{def.mass.has_value()});
-  out.value(def.mass.value_or(0));
-  out.value(uint8_t{def.inertia.has_value()});
-  out.value(def.inertia.value_or(Vec3::Zero()));
+  write_optional(out, def.mass);
+  write_optional(out, def.inertia);
   write_optional(out, def.products);
   write_optional(out, def.centre);
   out.value(uint64_t(def.drawn.size()));
   for (const DrawnShapeDef& s : def.drawn) {
     shapes.write(out, s.shape);
     write_pose(out, s.pose);
-    out.value(uint8_t{s.colour.has_value()});
-    out.value(s.colour.value_or(Vec3f::Zero()));
+    write_optional(out, s.colour);
   }
   out.value(def.group);
   out.value(def.gravity_scale);
@@ -132,29 +129,21 @@ BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes) {
     in.value(s.material.restitution);
     in.value(s.material.density);
     in.value(s.material.surface_velocity);
-    in.value(s.material.rolling_friction);
-    in.value(s.material.torsional_friction);
+    read_optional(in, s.material.rolling_friction);
+    read_optional(in, s.material.torsional_friction);
     def.shapes.push_back(std::move(s));
   }
   read_sources(in, def, shapes);
-  const bool has_mass = read_flag(in);
-  const double mass = in.get<double>();
-  if (has_mass) def.mass = mass;
-  const bool has_inertia = read_flag(in);
-  Vec3 inertia = Vec3::Zero();
-  in.value(inertia);
-  if (has_inertia) def.inertia = inertia;
-  def.products = read_optional(in);
-  def.centre = read_optional(in);
+  read_optional(in, def.mass);
+  read_optional(in, def.inertia);
+  read_optional(in, def.products);
+  read_optional(in, def.centre);
   const auto drawn = in.get<uint64_t>();
   for (uint64_t i = 0; i < drawn && in.ok(); ++i) {
     DrawnShapeDef s;
     s.shape = shapes.read(in);
     read_pose(in, s.pose);
-    const bool coloured = read_flag(in);
-    Vec3f colour = Vec3f::Zero();
-    in.value(colour);
-    if (coloured) s.colour = colour;
+    read_optional(in, s.colour);
     def.drawn.push_back(std::move(s));
   }
   in.value(def.group);

@@ -20,8 +20,8 @@ constexpr uint32_t contacts_version = 7;
 constexpr uint32_t particles_version = 7;
 constexpr uint32_t grain_touches_version = 2;
 constexpr uint32_t sensors_version = 1;
-/// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8.
-constexpr uint32_t emitters_version = 4;
+/// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
+constexpr uint32_t emitters_version = 5;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
@@ -30,8 +30,9 @@ constexpr uint32_t event_version = 3;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
 /// 6: friction with fluids. 7: courses; whole tensors of inertia, centres of mass, what is drawn
-/// alone. 8: meshes that shapes stand for.
-constexpr uint32_t bodies_version = 8;
+/// alone. 8: meshes that shapes stand for. 9: whether a material gives rolling and torsional
+/// friction.
+constexpr uint32_t bodies_version = 9;
 /// 2: the line of overlap. 3: emission and removal. 4: fluids. 5: motors of joints.
 constexpr uint32_t ledger_version = 5;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
@@ -41,8 +42,8 @@ constexpr uint32_t ledger_version = 5;
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
 /// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
-/// for particles and emitters that there are.
-constexpr uint32_t queue_version = 16;
+/// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
+constexpr uint32_t queue_version = 17;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;

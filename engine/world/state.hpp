@@ -209,7 +209,8 @@ struct WorldState {
   /// Some bodies may have been made asleep since the last tick: they have no contacts yet.
   bool laid_asleep = true;
 
-  ShapeFactory shape_factory() {
+  /// What a ShapeFactory refers to.
+  auto shape_factory() {
     return [this](const ShapeDef& def) { return shapes->shape(def); };
   }
   double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }

@@ -17,6 +17,7 @@
 #include "engine/world/tolerances.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace tumble {
 namespace {
@@ -182,12 +183,14 @@ Status run_event_stages(WorldState& s) {
   {
     const ScopedStage stage(s.profiler, "forces");
     share_forces_on_particles(s);
+    if (stop_requested()) return stopped_error();
     if (const Status flowed = move_fluids(s); !flowed) return flowed;
     for (ParticleSystem& p : s.particles)
       for (Vec3& f : p.force) f.setZero();
     if (const Status made = append_particles(s); !made) return made;
     forces.emplace(s);
     time_stepping.emplace(s, *forces);
+    if (stop_requested()) return stopped_error();
   }
   if (const Status moved = move_bodies(s, *forces, *time_stepping); !moved) return moved;
   if (stop_requested()) return stopped_error();

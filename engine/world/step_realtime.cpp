@@ -237,6 +237,7 @@ Status run_stages(WorldState& s) {
     wake_tied_to_particles(s);
     wake_in_changing_fields(s);
     sum_forces(s);
+    if (stop_requested()) return stopped_error();
     if (const Status moved = move_fluids(s); !moved) return moved;
     carry_on_grains(s);
     if (const Status made = append_colliding(s); !made) return made;

@@ -1,5 +1,6 @@
 #include "engine/world/tick_forces.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
 #include "engine/world/joint_drives.hpp"
 
@@ -92,6 +93,7 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
   for (const uint32_t slot : bodies)
     for (const uint32_t i : anchored_[slot]) {
+      if (stop_requested()) return;
       charge_work(60);
       tumble::apply(*s.forces[i], context);
     }

@@ -9,6 +9,8 @@
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/collision/support.hpp"
 
+#include <algorithm>
+
 using namespace tumble;
 using namespace tumble::test;
 

@@ -6,6 +6,7 @@
 #include "engine/collision/query.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/collision/support.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 
@@ -62,7 +63,7 @@ template <class T>
 T found(const auto& call) {
   T out;
   const Status s = call(out);
-  REQUIRE_MESSAGE(s.ok(), (s.ok() ? "" : s.error().text()));
+  REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   return out;
 }
 

@@ -3,19 +3,20 @@
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/collision/support.hpp"
+#include "tests/support/why_not.hpp"
 
 /// Polyhedra and poses for the tests of V-Clip, awkward ones on purpose.
 namespace tumble::test {
 
 inline ConvexPolyhedron hull_of(const std::vector<Vec3>& points) {
   auto h = convex_hull(points);
-  REQUIRE_MESSAGE(h.ok(), (h.ok() ? "" : h.error().text()));
+  REQUIRE_MESSAGE(h.ok(), test::why_not(h));
   return std::move(h->polyhedron);
 }
 
 inline VoronoiPolyhedron voronoi(const ConvexPolyhedron& p) {
   auto v = make_voronoi_polyhedron(p);
-  REQUIRE_MESSAGE(v.ok(), (v.ok() ? "" : v.error().text()));
+  REQUIRE_MESSAGE(v.ok(), test::why_not(v));
   return *std::move(v);
 }
 

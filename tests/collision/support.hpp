@@ -5,6 +5,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/support/scale.hpp"
 #include "tests/support/shape_reference.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -37,7 +38,7 @@ inline Vec3 random_vec(Random& r, double a, double b) {
 
 inline std::shared_ptr<const Shape> must(const ShapeDef& def) {
   auto shape = make_shape(def);
-  REQUIRE_MESSAGE(shape.ok(), (shape.ok() ? "" : shape.error().text()));
+  REQUIRE_MESSAGE(shape.ok(), test::why_not(shape));
   return *shape;
 }
 

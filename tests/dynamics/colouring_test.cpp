@@ -4,6 +4,8 @@
 
 #include "tests/dynamics/piles.hpp"
 
+#include <algorithm>
+
 using namespace tumble;
 using namespace tumble::test;
 

@@ -8,7 +8,9 @@
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
+#include "tests/support/why_not.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -26,7 +28,7 @@ struct Moments {
 
 Moments moments_of(const EmissionShapeDef& def) {
   const auto shape = EmissionShape::make(def);
-  REQUIRE_MESSAGE(shape.ok(), shape.error().text());
+  REQUIRE_MESSAGE(shape.ok(), test::why_not(shape));
   Moments m;
   for (uint64_t n = 0; n < draws; ++n) {
     Random random = numbered_random(11, n);

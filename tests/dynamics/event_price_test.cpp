@@ -56,6 +56,41 @@ TEST_CASE("event: what a tick costs is bounded by the budget, whatever happens i
   }
 }
 
+TEST_CASE("event: a try after time-stepped ticks may spend a quarter of the budget") {
+  EventWorld w(6);
+  NoMotion still;
+  w.time_stepping = &still;
+  throw_boxes(w, 4);
+  const double event = double(prices::event) * 4;
+  const auto spent = [&w](int budget) {
+    w.settings.budget = budget;
+    w.step();
+    REQUIRE(w.stepper.stats.groups == 1);
+    return double(w.stepper.stats.work);
+  };
+  const auto wait = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      CHECK(spent(1000) == 0);
+      CHECK(w.stepper.stats.time_stepped == 1);
+    }
+  };
+  // What it takes is more than three events a body.
+  for (const int budget : {1, 2}) {
+    const double first = spent(budget);
+    CHECK(first > budget * event);
+    CHECK(first < (budget + 0.2) * event);
+    wait(4);
+    const double again = spent(budget);
+    CHECK(again > 0.25 * budget * event);
+    CHECK(again < (0.25 * budget + 0.2) * event);
+    wait(8);
+    // Events again, and with them the whole budget.
+    const double whole = spent(1000);
+    CHECK(whole > 3 * event);
+    CHECK(w.stepper.stats.time_stepped == 0);
+  }
+}
+
 TEST_CASE("event: work is counted the same by any number of threads" *
           doctest::test_suite("long")) {
   std::vector<uint64_t> work;

@@ -8,6 +8,7 @@
 #include "tests/dynamics/event_world.hpp"
 
 #include <cmath>
+#include <optional>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -21,7 +22,8 @@ constexpr double radius = 0.25;
 template <class World>
 class OfMaterial : public World {
  public:
-  OfMaterial(double rolling, double torsional, double friction = 0.8) {
+  OfMaterial(std::optional<double> rolling, std::optional<double> torsional,
+             double friction = 0.8) {
     material.friction = friction;
     material.rolling_friction = rolling;
     material.torsional_friction = torsional;
@@ -204,15 +206,16 @@ TEST_CASE("event: two balls that touch and turn keep their momentum") {
   CHECK((angular() - L).norm() < 1e-9 * w.bodies[i].mass);
 }
 
-TEST_CASE("event: values that nobody named are none, those below the default are not") {
-  const auto lost = [](double rolling) {
+TEST_CASE("event: values that nobody gives are none, those given act, the default's too") {
+  const auto lost = [](std::optional<double> rolling) {
     EventTurningWorld w(rolling, rolling);
     const uint32_t i = w.put(rolling_ball(1, 0));
     w.run(0.5);
     return 1 - w.bodies[i].v.norm();
   };
-  CHECK(std::fabs(lost(default_turning_friction)) < 1e-9);
-  CHECK(lost(1e-4) == doctest::Approx(0.5 * 5.0 / 7 * 1e-4 * g / radius).epsilon(1e-6));
+  CHECK(std::fabs(lost({})) < 1e-9);
+  for (const double rolling : {1e-4, default_turning_friction})
+    CHECK(lost(rolling) == doctest::Approx(0.5 * 5.0 / 7 * rolling * g / radius).epsilon(1e-6));
 }
 
 TEST_CASE("event: a disc that lies flat resists turning by its points, not by a lever arm") {

@@ -3,7 +3,9 @@
 #include "engine/dynamics/event/event_stepper.hpp"
 #include "tests/dynamics/joints_by_hand.hpp"
 #include "tests/dynamics/rigid_world.hpp"
+#include "tests/support/why_not.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace tumble::test {
@@ -37,7 +39,7 @@ class EventWorld : public BodyList {
     for (const JointCoupling& c : couplings) links.push_back({joints[c.a].b, joints[c.b].b});
     context.apart.sort();
     const Status done = stepper.step(bodies, *broad, links, forces, context, h, crew);
-    REQUIRE_MESSAGE(done.ok(), done.error().text());
+    REQUIRE_MESSAGE(done.ok(), test::why_not(done));
     deepest = std::max(deepest, stepper.stats.deepest);
     windows += stepper.stats.windows;
     events += stepper.stats.events;

@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "engine/dynamics/grains/grain_stage.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -63,7 +64,7 @@ struct Cloud {
     for (int n = 0; n < ticks; ++n) {
       touches.begin_tick();
       const Status done = stage.step(tick(), touches, report);
-      REQUIRE_MESSAGE(done.ok(), done.error().text());
+      REQUIRE_MESSAGE(done.ok(), test::why_not(done));
     }
     return hash();
   }

@@ -3,6 +3,7 @@
 // and runs of the same heap by other numbers of threads.
 #include "engine/core/random.hpp"
 #include "engine/dynamics/grains/grain_stage.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -73,7 +74,7 @@ struct Sandbox {
     touches.begin_tick();
     const Status done =
         stage.step({systems, ids, bodies, start, gravity, h, settings, &crew}, touches, report);
-    REQUIRE_MESSAGE(done.ok(), done.error().text());
+    REQUIRE_MESSAGE(done.ok(), test::why_not(done));
   }
   void run(double seconds) {
     for (int n = int(seconds / h + 0.5); n > 0; --n) step();

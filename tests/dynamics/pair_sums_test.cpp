@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "tests/support/scale.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 // stages themselves.
 #include "engine/core/hash.hpp"
 #include "engine/dynamics/realtime/tick.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cstdlib>
 #include <functional>
@@ -76,7 +77,7 @@ class BodyList {
  public:
   uint32_t add(const BodyDef& def) {
     Result<RigidBody> made = make_body(def);
-    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    REQUIRE_MESSAGE(made.ok(), test::why_not(made));
     bodies.push_back(*made);
     return uint32_t(bodies.size() - 1);
   }
@@ -111,7 +112,7 @@ class RigidWorld : public BodyList {
     if (before_step) before_step();
     RealtimeTick now = tick();
     const Status done = now.run();
-    REQUIRE_MESSAGE(done.ok(), done.error().text());
+    REQUIRE_MESSAGE(done.ok(), test::why_not(done));
     solve_stats = now.report.solve;
     ++ticks;
   }

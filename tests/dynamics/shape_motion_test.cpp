@@ -7,6 +7,7 @@
 #include "tests/dynamics/piles.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

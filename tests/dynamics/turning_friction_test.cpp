@@ -3,6 +3,8 @@
 // slopes up to tan = rho / r, one that spins on a point stops after 2 r^2 w / (5 tau g)), by the
 // scalar rows as small groups are solved and by the bundles of large ones; conservation of
 // momentum.
+#include "engine/dynamics/contact/cached_pair.hpp"
+#include "engine/dynamics/contact/pair_side.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/dynamics/rigid_world.hpp"
 
@@ -185,13 +187,15 @@ TEST_CASE("a cylinder rolls out with 2/3 rho g / r on its line of contact") {
 }
 
 TEST_CASE("of two materials the root of the product counts: one that has none has the last word") {
-  Material a, b;
+  PairSide a, b;
   a.rolling_friction = 0.002;
   b.rolling_friction = 0.008;
   a.torsional_friction = 0.01;
   b.torsional_friction = 0;
-  CHECK(combine(a, b).rolling_friction == doctest::Approx(0.004).epsilon(1e-15));
-  CHECK(combine(a, b).torsional_friction == 0);
+  Contact contact;
+  take_materials(contact, a, b);
+  CHECK(contact.rolling_friction == doctest::Approx(0.004).epsilon(1e-15));
+  CHECK(contact.torsional_friction == 0);
 }
 
 TEST_CASE("what resists turning between bodies changes no momentum of theirs") {

@@ -6,6 +6,8 @@
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 #include "tests/dynamics/piles.hpp"
 
+#include <algorithm>
+
 #include <hwy/targets.h>
 
 using namespace tumble;

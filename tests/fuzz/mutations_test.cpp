@@ -18,6 +18,7 @@
 #include "tests/support/process_limits.hpp"
 #include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <fstream>
 
@@ -134,7 +135,7 @@ TEST_CASE("the mesh that will be damaged is the same from every format") {
   for (const NamedFile& file : mesh_files()) {
     CAPTURE(file.name);
     const auto mesh = import_bytes(folder / file.name, file.bytes, {});
-    REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+    REQUIRE_MESSAGE(mesh.ok(), test::why_not(mesh));
     // The node of glTF doubles the height; STL and glTF have single precision.
     const double nodes = file.name.ends_with(".gltf") || file.name.ends_with(".glb") ? 2 : 1;
     CHECK(mesh_mass(mesh->mesh)->mass == doctest::Approx(nodes * volume).epsilon(1e-6));

@@ -14,6 +14,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 #include "tests/support/convex_pieces.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -231,7 +232,7 @@ TEST_CASE("exact pieces are convex, disjoint and add up, their number is near th
   for (const Solid& s : solids()) {
     CAPTURE(s.name);
     const auto d = decompose_exactly(s.mesh);
-    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    REQUIRE_MESSAGE(d.ok(), test::why_not(d));
     check_partition(*d, s.mesh);
     CHECK(d->pieces.size() <= s.most_pieces);
   }
@@ -301,6 +302,36 @@ TEST_CASE("open, crossing and flat meshes are refused with the reason, and limit
   CHECK(decompose_exactly(cup()).error().code == ErrorCode::cancelled);
 }
 
+TEST_CASE("a decomposition is stopped anywhere, and soon") {
+  // Looks count what it does between them: it asks before each hull, sample and candidate.
+  StopFlag flag;
+  const Stoppable stoppable(&flag);
+  for (const auto& [name, mesh, bound] :
+       {std::tuple{"torus", make_mesh::torus(0.5, 0.2, 24, 12), 0.03},
+        {"spiky ball", spiky_ball(3, 1), 0.03}}) {
+    CAPTURE(name);
+    const AabbTree surface(std::make_shared<const TriangleMesh>(mesh));
+    const auto decompose = [&, bound = bound](int64_t after) {
+      flag.request_after(after);
+      return decompose_approximately(surface, {.concavity = bound, .max_pieces = 12});
+    };
+    constexpr int64_t plenty = int64_t{1} << 40;
+    REQUIRE(decompose(plenty).ok());
+    const int64_t looks = plenty - flag.looks_left();
+    CHECK(looks > 2000);
+    int64_t worst = 0;
+    for (int k = 0; k < 24; ++k) {  // more of them early
+      CAPTURE(k);
+      const auto stopped = decompose(looks * k * k / (24 * 24));
+      REQUIRE_FALSE(stopped.ok());
+      CHECK(stopped.error().code == ErrorCode::cancelled);
+      worst = std::max(worst, -flag.looks_left());
+    }
+    CHECK(worst < 1000);
+    MESSAGE(std::string(name), ": ", looks, " looks, ", worst, " after a request");
+  }
+}
+
 TEST_CASE("approximate pieces keep the bound and all of the mesh, with any number of threads") {
   for (const auto& [name, mesh, bound, most, ratio] :
        {std::tuple{"torus", make_mesh::torus(0.5, 0.2, 24, 12), 0.03, size_t{12}, 1.081},
@@ -316,7 +347,7 @@ TEST_CASE("approximate pieces keep the bound and all of the mesh, with any numbe
     ApproximateDecompositionOptions options;
     options.concavity = bound;
     const auto d = decompose_approximately(tree, options);
-    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    REQUIRE_MESSAGE(d.ok(), test::why_not(d));
     CHECK(d->pieces.size() <= most);
     CHECK(d->hull_volume / d->mesh_volume < ratio);
     CHECK(std::fabs(d->solid_volume / d->mesh_volume - 1) < 1e-5);

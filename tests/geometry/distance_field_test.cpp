@@ -10,6 +10,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
 #include "tests/geometry/hierarchy_meshes.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,7 @@ DistanceField field_of(const Hierarchy& surface, double cells) {
   DistanceFieldOptions options;
   options.cell = surface.bounds().extent().maxCoeff() / cells;
   auto field = make_distance_field(surface, options);
-  REQUIRE_MESSAGE(field.ok(), field.error().text());
+  REQUIRE_MESSAGE(field.ok(), test::why_not(field));
   return *std::move(field);
 }
 

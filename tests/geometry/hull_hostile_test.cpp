@@ -5,6 +5,7 @@
 #include "engine/geometry/hull/plane_tree.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/geometry/hull_families.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cstring>
 
@@ -75,7 +76,7 @@ bool valid_or_refused(const std::string& name, const Points& points, const HullO
     return false;
   }
   const Status valid = check_hull(hull->polyhedron, points, hull->tolerance);
-  CHECK_MESSAGE(valid.ok(), name, ": ", valid.error().text());
+  CHECK_MESSAGE(valid.ok(), name, ": ", test::why_not(valid));
   const double outside = furthest_outside(hull->polyhedron, points);
   CHECK_MESSAGE(outside <= 1.02 * hull->tolerance, name, ": a point is ", outside, " m away");
   return true;

@@ -7,6 +7,7 @@
 #include "engine/geometry/predicates/orientation.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/geometry/draws.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <set>
 
@@ -39,9 +40,9 @@ std::set<uint32_t> brute_force_corners(const std::vector<Vec3>& p) {
 
 void check(const std::vector<Vec3>& points, const HullOptions& options = {}) {
   const auto hull = convex_hull(points, options);
-  REQUIRE_MESSAGE(hull.ok(), hull.error().text());
+  REQUIRE_MESSAGE(hull.ok(), test::why_not(hull));
   const Status valid = check_hull(hull->polyhedron, points, hull->tolerance);
-  CHECK_MESSAGE(valid.ok(), valid.error().text());
+  CHECK_MESSAGE(valid.ok(), test::why_not(valid));
   for (size_t v = 0; v < hull->source.size(); ++v) {
     CHECK(points[hull->source[v]] == hull->polyhedron.vertices[v]);
   }

@@ -4,6 +4,7 @@
 #include "engine/math/lcp/solvers.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <map>
 #include <string>
@@ -24,7 +25,7 @@ LcpSolution cone_solve(std::string_view name, const LcpProblem& p, double tolera
   for (const LcpSolverEntry& e : all_lcp_solvers()) {
     if (e.name != name) continue;
     auto s = e.solve(p, options);
-    REQUIRE_MESSAGE(s.ok(), (s ? std::string() : s.error().text()));
+    REQUIRE_MESSAGE(s.ok(), test::why_not(s));
     CHECK(s->report.residual == validate(p, s->z).worst());
     if (s->report.solved()) CHECK(s->report.residual <= tolerance);
     return std::move(*s);

@@ -2,10 +2,12 @@
 // unknowns), the validator, which computes w = A z + b from z alone, the certificate of
 // infeasibility, and for semi-definite matrices the uniqueness of w.
 #include "engine/core/hash.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/solvers.hpp"
 #include "engine/math/lcp/validate.hpp"
 #include "tests/math/lcp_families.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,7 +26,7 @@ const LcpSolverEntry& lcp_solver(std::string_view name) {
 
 LcpSolution lcp_solve(std::string_view name, const LcpProblem& p, LcpOptions options = {}) {
   auto s = lcp_solver(name).solve(p, options);
-  REQUIRE_MESSAGE(s.ok(), (s ? std::string() : s.error().text()));
+  REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   CHECK(s->report.solver == name);
   CHECK(s->z.size() == p.size());
   CHECK(s->report.residual == validate(p, s->z).worst());
@@ -83,6 +85,39 @@ TEST_CASE("every LCP solver agrees with enumeration on random and degenerate pro
   }
   CHECK(solved > cases / 2);
   CHECK(infeasible > cases / 20);
+}
+
+TEST_CASE("dantzig pays for clamping all at once, and is stopped between two unknowns") {
+  // A triangular solution for each of n unknowns that all end up clamped: n^3 / 6 multiplications.
+  Random r(21);
+  constexpr int n = 300;
+  MatX factor(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) factor(i, j) = r.uniform(0, 1);
+  const MatX A = factor * factor.transpose() + n * MatX::Identity(n, n);
+  VecX z(n);
+  for (int i = 0; i < n; ++i) z[i] = 1 + r.uniform(0, 1);
+  const LcpProblem p = LcpProblem::plain(A, -(A * z));
+  WorkMeter meter;
+  {
+    const Metered metered(meter);
+    CHECK((lcp_solve("dantzig", p).z - z).norm() < 1e-9 * z.norm());
+  }
+  CHECK(meter.spent() > uint64_t(n) * n * n / 6);
+  CHECK(meter.spent() < uint64_t(n) * n * n);
+
+  StopFlag flag;
+  const Stoppable stoppable(&flag);
+  constexpr int64_t plenty = int64_t{1} << 40;
+  flag.request_after(plenty);
+  lcp_solve("dantzig", p);
+  const int64_t looks = plenty - flag.looks_left();
+  CHECK(looks > n);
+  for (int k = 0; k < 10; ++k) {
+    flag.request_after(looks * k / 10);
+    CHECK_FALSE(lcp_solve("dantzig", p).report.solved());
+    CHECK(-flag.looks_left() < 20);
+  }
 }
 
 TEST_CASE("dantzig solves or refutes larger problems, and lemke and Newton agree") {

@@ -1,6 +1,8 @@
 // Numbers over time. References: values worked out by hand; the same course from its bytes.
 #include "engine/math/time_course.hpp"
 
+#include "tests/support/why_not.hpp"
+
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -9,7 +11,7 @@ using namespace tumble;
 
 TEST_CASE("an expression over time, with constants, times a factor") {
   const auto course = TimeCourse::expression("a*sin(2*pi*t) + b", {{"a", 3}, {"b", 0.5}, {"c", 9}});
-  REQUIRE_MESSAGE(course.ok(), course.error().text());
+  REQUIRE_MESSAGE(course.ok(), test::why_not(course));
   CHECK(course->at(0) == doctest::Approx(0.5));
   CHECK(course->at(0.25) == doctest::Approx(3.5));
   CHECK(course->scaled(2).at(0.75) == doctest::Approx(-5));

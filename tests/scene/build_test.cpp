@@ -10,6 +10,7 @@
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/shape_reference.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <filesystem>
 
@@ -420,7 +421,7 @@ TEST_CASE("what is probably not meant is warned of, with its name, and nothing e
     const SceneRead read = read_scene(scene_with(members), "x.json");
     REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
     const auto built = build_world(read.scene);
-    REQUIRE_MESSAGE(built.ok(), built.error().text());
+    REQUIRE_MESSAGE(built.ok(), test::why_not(built));
     return built->warnings;
   };
   const auto says = [&](const std::string& members, const std::string& part) {

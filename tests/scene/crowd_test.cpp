@@ -8,6 +8,7 @@
 #include "engine/scene/workloads/workload.hpp"
 #include "engine/world/world.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -91,7 +92,7 @@ Watched scene(const std::string& name, CrowdKind crowd, Order order,
     read.scene.bodies = std::move(bodies);
   }
   auto built = build_world(read.scene);
-  REQUIRE_MESSAGE(built.ok(), built.error().text());
+  REQUIRE_MESSAGE(built.ok(), test::why_not(built));
   Watched out{std::move(built->world), {}};
   if (order == Order::after) add(*out.world, others);
   for (const auto& [body_name, id] : built->bodies)
@@ -156,7 +157,7 @@ Watched together(const std::vector<BodyDef>& own, const std::vector<BodyDef>& ot
   WorldDef def;
   def.settings = settings;
   auto made = build_workload(w, def);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   const size_t first = order == Order::before ? others.size() : 0;
   const auto begin = made->bodies.begin() + std::ptrdiff_t(first);
   return {std::move(made->world), {begin, begin + std::ptrdiff_t(own.size())}};

@@ -3,6 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 
@@ -79,13 +80,13 @@ std::string without(const SceneEdit& removal, std::vector<std::string>& along,
   for (const TakenAlong& one : taken_along(from, {}, removal)) along.push_back(one.words());
   const std::vector<SceneEdit> edits{removal};
   const auto saved = save_edits(from, "x.json", edits);
-  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  REQUIRE_MESSAGE(saved.ok(), test::why_not(saved));
   const SceneRead read = read_scene(saved->text, "x.json");
   REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
   WorldDef extras;
   extras.threads = 1;
   const auto built = build_world(read.scene, extras);
-  REQUIRE_MESSAGE(built.ok(), built.error().text());
+  REQUIRE_MESSAGE(built.ok(), test::why_not(built));
   return saved->text;
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("an emitter that another calls goes without it, a joint that another f
 TEST_CASE("a copy that one of several joints holds stays in the file, and that is said") {
   const std::vector<SceneEdit> edits{RemovedBody{"link[1]"}};
   const auto saved = save_edits(scene_text, "x.json", edits);
-  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  REQUIRE_MESSAGE(saved.ok(), test::why_not(saved));
   CHECK(saved->text == scene_text);
   REQUIRE(saved->left_out.size() == 1);
   CHECK(saved->left_out[0].find("joints.chain") != std::string::npos);
@@ -221,7 +222,7 @@ TEST_CASE("bodies that the file does not have are deleted without a trace in it"
                                      RemovedBody{"box[2]"},
                                      ChangedBody{"copies[4]", BodyDef{}, BodyDef{}}};
   const auto saved = save_edits(scene_text, "x.json", edits);
-  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  REQUIRE_MESSAGE(saved.ok(), test::why_not(saved));
   CHECK(saved->text == scene_text);
   CHECK(saved->left_out.size() == 2);
 }

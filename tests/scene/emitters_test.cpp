@@ -3,6 +3,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/why_not.hpp"
 
 using namespace tumble;
 
@@ -41,7 +42,7 @@ BuiltScene built(const std::string& members) {
   WorldDef extras;
   extras.threads = 1;
   auto made = build_world(read.scene, extras);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::move(*made);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/scene/mesh_import.hpp"
 #include "tests/support/assimp_models.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <array>
@@ -262,7 +263,7 @@ size_t check_solids(const std::vector<std::filesystem::path>& files) {
     if (!check_solid(imported->mesh).solid()) continue;
     CAPTURE(file.string());
     const auto d = decompose_exactly(imported->mesh);
-    REQUIRE_MESSAGE(d.ok(), d.error().text());
+    REQUIRE_MESSAGE(d.ok(), test::why_not(d));
     const Verdict v = judge(imported->mesh, d->pieces);
     CHECK(v.moments < 1e-12L);
     CHECK(v.shared < 1e-12L);

@@ -9,6 +9,7 @@
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>

@@ -5,6 +5,7 @@
 #include "engine/world/replay.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/why_not.hpp"
 
 using namespace tumble;
 
@@ -14,7 +15,7 @@ BuiltScene built(const SceneDescription& scene) {
   WorldDef extras;
   extras.threads = 1;
   auto made = build_world(scene, extras);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::move(*made);
 }
 

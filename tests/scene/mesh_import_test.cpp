@@ -13,6 +13,7 @@
 #include "tests/support/assimp_models.hpp"
 #include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -150,7 +151,7 @@ TEST_CASE("models with a known answer") {
   if (!have_assimp_models()) return;
   const auto triangles = [](const char* file) {
     const auto mesh = import_mesh(assimp_models / file);
-    REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+    REQUIRE_MESSAGE(mesh.ok(), test::why_not(mesh));
     return mesh->mesh.triangles.size();
   };
   CHECK(triangles("OBJ/box.obj") == 12);
@@ -362,7 +363,7 @@ TEST_CASE("PLY as text and binary in either byte order, with all digits, OFF lik
       put(1.0f);
     }
     const auto mesh = import_mesh(folder.write("t.ply", ply));
-    REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+    REQUIRE_MESSAGE(mesh.ok(), test::why_not(mesh));
     CHECK(mesh_mass(mesh->mesh)->mass == doctest::Approx(8.0 / 3));
   }
   const auto off = import_mesh(
@@ -370,7 +371,7 @@ TEST_CASE("PLY as text and binary in either byte order, with all digits, OFF lik
                    "COFF # with colours\n8 6 12\n0 0 0 1 1 1\n0.1 0 0\n0 1 0\n0.1 1 0\n0 0 1\n"
                    "0.1 0 1\n\n# a comment\n0 1 1\n0.1 1 1\n4 0 4 6 2 0.5 0.5 0.5\n4 1 3 7 5\n"
                    "4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6"));
-  REQUIRE_MESSAGE(off.ok(), off.error().text());
+  REQUIRE_MESSAGE(off.ok(), test::why_not(off));
   CHECK(bounds(off->mesh).max.x() == 0.1);
   CHECK(mesh_mass(off->mesh)->mass == doctest::Approx(0.1));
 }
@@ -396,13 +397,13 @@ TEST_CASE("scale, stretch, up axis and centre") {
 TEST_CASE("node transforms are applied, mirrored parts stay outward, parts are named") {
   const Folder folder;
   const auto mesh = import_mesh(folder.write("two.gltf", gltf_two_tetrahedra()));
-  REQUIRE_MESSAGE(mesh.ok(), mesh.error().text());
+  REQUIRE_MESSAGE(mesh.ok(), test::why_not(mesh));
   REQUIRE(mesh->parts.size() == 2);
   CHECK(mesh->parts[0].triangles == 4);
   CHECK(mesh->mesh.vertices.size() == 8);
   const double one = mesh_integrals(make_mesh::tetrahedron(1)).mass;
   const auto mass = mesh_mass(mesh->mesh);
-  REQUIRE_MESSAGE(mass.ok(), mass.error().text());
+  REQUIRE_MESSAGE(mass.ok(), test::why_not(mass));
   CHECK(mass->mass == doctest::Approx(9 * one).epsilon(1e-6));
   CHECK(mass->centre.x() == doctest::Approx((5 - 8 * 5) / 9.0).epsilon(1e-6));
 }

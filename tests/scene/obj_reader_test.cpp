@@ -5,6 +5,7 @@
 #include "engine/scene/mesh_files/polygon_file.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <fstream>
 
@@ -46,7 +47,7 @@ TEST_CASE("coordinates of an object file keep all digits of doubles") {
   const auto got = read(
       "v 1.0000000001 -0.12345678901234567 +1e-3\nv 16777217 5e-324 .5\n"
       "v 1 2 3 0.9 0.8 0.7\nv 1 2 3 2\nf 1 2 3 4\n");
-  REQUIRE_MESSAGE(got.ok(), got.error().text());
+  REQUIRE_MESSAGE(got.ok(), test::why_not(got));
   CHECK(got->vertices == std::vector<Vec3>{{1.0000000001, -0.12345678901234567, 1e-3},
                                            {16777217, 5e-324, 0.5},
                                            {1, 2, 3},        // with a colour
@@ -68,7 +69,7 @@ TEST_CASE("faces of an object file: corners in every form, polygons, ends and go
         "f 1 2 3 4\n\n\r\n#"}) {
     CAPTURE(face);
     const auto got = read(points + face);
-    REQUIRE_MESSAGE(got.ok(), got.error().text());
+    REQUIRE_MESSAGE(got.ok(), test::why_not(got));
     CHECK(got->corners == square);
     CHECK(got->polygon_first == std::vector<size_t>{0, 4});
     CHECK(got->vertices.size() == 4);
@@ -86,7 +87,7 @@ TEST_CASE("objects, groups and materials of an object file are parts with vertic
   const auto got = read(three_points +
                         "v 0 0 1\no base\ng\nusemtl red\ng a b \nf 4 3 2\nf 1 2 4\nusemtl red\n"
                         "f 1 2 3\nusemtl blue\nf 2 3 4\no empty\no last\nf 3 2 1\n");
-  REQUIRE_MESSAGE(got.ok(), got.error().text());
+  REQUIRE_MESSAGE(got.ok(), test::why_not(got));
   REQUIRE(got->parts.size() == 3);
   CHECK(got->parts[0].name == "a b");
   CHECK(got->parts[1].name == "a b");

@@ -9,7 +9,9 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/scale.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/why_not.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -132,7 +134,7 @@ TEST_CASE("a packed scene is the same scene, with its meshes, on a machine that 
     REQUIRE(write_pack(rig.file, *files));
     CHECK(is_pack_file(rig.file));
     const auto back = read_pack(rig.file);
-    REQUIRE_MESSAGE(back.ok(), back.error().text());
+    REQUIRE_MESSAGE(back.ok(), test::why_not(back));
     REQUIRE(back->size() == files->size());
     for (size_t i = 0; i < files->size(); ++i) {
       CHECK((*back)[i].name == (*files)[i].name);
@@ -153,7 +155,7 @@ TEST_CASE("robots and bare meshes are packed as the scenes about them") {
                                  ? scene
                                  : std::string(TUMBLE_SOURCE_DIR) + "/" + scene;
     const auto files = pack_files(name);
-    REQUIRE_MESSAGE(files.ok(), files.error().text());
+    REQUIRE_MESSAGE(files.ok(), test::why_not(files));
     REQUIRE(write_pack(rig.file, *files));
     CHECK(hash_of(rig.file.string()) == hash_of(name));
   }
@@ -182,7 +184,7 @@ TEST_CASE("a mesh file takes no files along that are not in its folder") {
       {"uri": "b.bin", "byteLength": 4}, {"uri": "b.bin", "byteLength": 4}]})");
   put("scene/b.bin", "1234");
   const auto files = pack_files((rig.folder / "scene/a.json").string());
-  REQUIRE_MESSAGE(files.ok(), files.error().text());
+  REQUIRE_MESSAGE(files.ok(), test::why_not(files));
   CHECK(files->size() == 3);
   REQUIRE(write_pack(rig.file, *files));
   CHECK(read_pack(rig.file).ok());
@@ -198,7 +200,7 @@ TEST_CASE("an unpacked scene that has lost or changed files is whole again when 
   const auto folder = scene->parent_path();
   const auto is_whole = [&] {
     const auto again = unpack(rig.file);
-    REQUIRE_MESSAGE(again.ok(), again.error().text());
+    REQUIRE_MESSAGE(again.ok(), test::why_not(again));
     CHECK(*again == *scene);
     for (const PackFile& f : *files) CHECK(file_text((folder / f.name).string()) == f.bytes);
     CHECK(std::distance(std::filesystem::directory_iterator(folder.parent_path()), {}) == 1);
@@ -215,7 +217,7 @@ TEST_CASE("an archive by another program is read, folders in it too") {
   const PackRig rig;
   rig.write(archive({{"meshes/", ""}, {"a.json", scene_text}, {"meshes/b.json", "{}"}}));
   const auto scene = unpack(rig.file);
-  REQUIRE_MESSAGE(scene.ok(), scene.error().text());
+  REQUIRE_MESSAGE(scene.ok(), test::why_not(scene));
   CHECK(file_text(scene->string()) == scene_text);
   CHECK(scene->filename() == "a.json");
   CHECK(file_text((scene->parent_path() / "meshes/b.json").string()) == "{}");

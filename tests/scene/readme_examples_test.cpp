@@ -4,6 +4,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,13 +109,13 @@ void run_scene(const std::string& text) {
   const SceneRead read = read_scene(with_files_that_exist(text), "example.json");
   REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
   auto built = build_world(read.scene);
-  REQUIRE_MESSAGE(built.ok(), (built.ok() ? "" : built.error().text()));
+  REQUIRE_MESSAGE(built.ok(), test::why_not(built));
   World& world = *built->world;
   const double seconds = 1.0 / std::max(1, 10 / scaled_count(10));
   const Energies start = world.frame()->stats.energies;
   while (world.time() < seconds) {
     const auto step = world.step();
-    REQUIRE_MESSAGE(step.ok(), (step.ok() ? "" : step.error().text()));
+    REQUIRE_MESSAGE(step.ok(), test::why_not(step));
   }
   // Nothing else in the examples does work: motion cannot have more than there was to fall for, and
   // what emitters and motors gave.

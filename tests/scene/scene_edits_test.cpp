@@ -11,6 +11,7 @@
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -27,14 +28,14 @@ BuiltScene built(const std::string& text, const std::string& file) {
   INFO(all_text(read.faults));
   REQUIRE(read.ok());
   auto made = build_world(read.scene);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::move(*made);
 }
 
 std::string saved(const std::string& text, const std::string& file,
                   const std::vector<SceneEdit>& edits) {
   const auto made = save_edits(text, file, edits);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   CHECK(made->left_out.empty());
   return made->text;
 }

@@ -7,6 +7,7 @@
 #include "engine/scene/reader.hpp"
 #include "engine/world/shape_store.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cstdlib>
 
@@ -21,7 +22,7 @@ BuiltScene build(const SceneDescription& scene, int threads,
   WorldDef def;
   def.threads = threads;
   auto built = build_world(scene, std::move(def), std::move(shapes));
-  REQUIRE_MESSAGE(built.ok(), built.error().text());
+  REQUIRE_MESSAGE(built.ok(), test::why_not(built));
   return std::move(*built);
 }
 
@@ -54,7 +55,7 @@ TEST_CASE("scene: snapshots after each tick, and the same bits for every thread 
     auto copy = World::create({}, shapes);
     REQUIRE(copy.ok());
     const Status loaded = (*copy)->load(world.save(i == 0));
-    REQUIRE_MESSAGE(loaded.ok(), loaded.error().text());
+    REQUIRE_MESSAGE(loaded.ok(), test::why_not(loaded));
     REQUIRE(world.step().ok());
     REQUIRE((*copy)->step().ok());
     const Bytes a = state_bytes(world, shapes), b = state_bytes(**copy, shapes);

@@ -4,6 +4,7 @@
 #include "engine/scene/saving/scene_edits.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 
@@ -28,7 +29,7 @@ BuiltScene built_sensor(const std::string& keys) {
   WorldDef extras;
   extras.threads = 1;
   auto made = build_world(read.scene, extras);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::move(*made);
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("a removed body takes its sensors out of the file") {
                  "\"off\": {\"type\": \"region\", \"radius\": 1}\n}");
   const std::vector<SceneEdit> edits = {RemovedBody{"ball"}};
   const auto saved = save_edits(text, data_file("x.json"), edits);
-  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  REQUIRE_MESSAGE(saved.ok(), test::why_not(saved));
   CHECK(saved->text.find("\"on\"") == std::string::npos);
   CHECK(saved->text.find("\"off\"") != std::string::npos);
 }

@@ -4,6 +4,7 @@
 #include "engine/scene/build.hpp"
 #include "engine/scene/reader.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <string>
@@ -22,7 +23,7 @@ BuiltScene at_tick(const std::string& name, double hz, std::vector<std::string> 
   for (const Fault& f : read.faults) MESSAGE(f.text());
   REQUIRE(read.ok());
   auto made = build_world(read.scene);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::move(*made);
 }
 
@@ -83,7 +84,7 @@ CageRun run_cage(double hz, int ticks, std::vector<std::string> overrides = {}) 
   const double start = mechanical_energy(*s.world, bodies);
   for (int k = 0; k < ticks; ++k) {
     const auto stepped = s.world->step();
-    REQUIRE_MESSAGE(stepped.ok(), stepped.error().text());
+    REQUIRE_MESSAGE(stepped.ok(), test::why_not(stepped));
     run.deepest = std::max(run.deepest, s.world->frame()->stats.max_penetration);
     run.most_energy = std::max(run.most_energy, mechanical_energy(*s.world, bodies) / start);
     for (const BodyId id : bodies)

@@ -7,6 +7,7 @@
 #include "tests/scene/workload_figures.hpp"
 #include "tests/support/scale.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 
@@ -205,7 +206,7 @@ TEST_CASE("small workloads run, measured steps are counted, threads change no bi
       last = begin + seconds;
     };
     const auto run = run_workload(w, options);
-    REQUIRE_MESSAGE(run.ok(), run.error().text());
+    REQUIRE_MESSAGE(run.ok(), test::why_not(run));
     CHECK(told == 12);
     CHECK(run->steps == 12);
     CHECK(run->workload == entry.name);

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/world/world.hpp"
 #include "tests/support/scale.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cstdlib>
 #include <string>
@@ -28,14 +29,14 @@ struct TestWorld {
       if (level >= LogLevel::warning) FAIL_CHECK("engine warning: ", std::string(message));
     };
     auto made = World::create(std::move(def));
-    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    REQUIRE_MESSAGE(made.ok(), test::why_not(made));
     world = std::move(*made);
   }
   World* operator->() { return world.get(); }
 
   BodyId add(BodyDef def) {
     auto id = world->create_body(std::move(def));
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     apply();
     return *id;
   }
@@ -67,17 +68,17 @@ struct TestWorld {
   }
   ForceId force(ForceDef def) {
     auto id = world->create_force(std::move(def));
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     apply();
     return *id;
   }
   void apply() {
     const Status s = world->apply_commands();
-    REQUIRE_MESSAGE(s.ok(), s.error().text());
+    REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   }
   StepReport step() {
     auto report = world->step();
-    REQUIRE_MESSAGE(report.ok(), report.error().text());
+    REQUIRE_MESSAGE(report.ok(), test::why_not(report));
     return *report;
   }
   void run(double seconds) {

@@ -7,6 +7,7 @@
 #include "engine/math/rotation.hpp"
 #include "tests/support/ring_mesh.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <chrono>
 #include <functional>
@@ -84,7 +85,7 @@ void add_heap(TestWorld& w, int count) {
 
 ParticleSystemId add_system(TestWorld& w, const ParticleSystemDef& def) {
   const auto id = w->create_particles(def);
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }
@@ -126,23 +127,9 @@ void add_grains(TestWorld& w) {
   w.add(TestWorld::box_def({0.07, 0.25, 0.07}, {0.05, 0.05, 0.05}));
 }
 
-/// A cloth over a ball, and a lump of particles on springs that falls on it.
-void add_nets(TestWorld& w) {
-  w.ground();
-  BodyDef ball = TestWorld::sphere_def({0.25, 0.3, 0.25}, 0.2);
-  ball.type = BodyType::fixed;
-  w.add(ball);
-  ClothDef d;
-  d.sheet.corner = {0, 0.53, 0};
-  d.sheet.across = {0.5, 0, 0};
-  d.sheet.down = {0, 0, 0.5};
-  d.sheet.columns = d.sheet.rows = 12;
-  auto weave = weave_cloth(d);
-  REQUIRE(weave.ok());
-  ParticleSystemDef cloth;
-  cloth.particles = weave->particles;
-  w.force(tie(std::move(*weave), add_system(w, cloth), 1));
-  ParticleSystemDef lump = block_of(4, 0.05, {0.2, 0.6, 0.2});
+/// A lump of particles on springs, which falls.
+void add_lump(TestWorld& w, int side) {
+  ParticleSystemDef lump = block_of(side, 0.05, {0.2, 0.6, 0.2});
   for (ParticleDef& p : lump.particles) p.radius = 0.015;
   const ParticleSystemId id = add_system(w, lump);
   const auto particle = [&](uint64_t i) {
@@ -159,6 +146,25 @@ void add_nets(TestWorld& w) {
       REQUIRE(w->create_force(spring).ok());
     }
   w.apply();
+}
+
+/// A cloth over a ball, and a lump of particles on springs that falls on it.
+void add_nets(TestWorld& w) {
+  w.ground();
+  BodyDef ball = TestWorld::sphere_def({0.25, 0.3, 0.25}, 0.2);
+  ball.type = BodyType::fixed;
+  w.add(ball);
+  ClothDef d;
+  d.sheet.corner = {0, 0.53, 0};
+  d.sheet.across = {0.5, 0, 0};
+  d.sheet.down = {0, 0, 0.5};
+  d.sheet.columns = d.sheet.rows = 12;
+  auto weave = weave_cloth(d);
+  REQUIRE(weave.ok());
+  ParticleSystemDef cloth;
+  cloth.particles = weave->particles;
+  w.force(tie(std::move(*weave), add_system(w, cloth), 1));
+  add_lump(w, 4);
 }
 
 void add_emitters(TestWorld& w) {
@@ -203,6 +209,7 @@ std::vector<Case> cases() {
        [](TestWorld& w) { add_fluid(w, FluidSolverKind::wcsph); }, 3},
       {"grains", settings_of("realtime"), add_grains, 8},
       {"cloth and net", settings_of("realtime"), add_nets, 12},
+      {"event, net", settings_of("event"), [](TestWorld& w) { add_lump(w, 2); }, 3},
       {"emitters", settings_of("realtime"), add_emitters, 6}};
 }
 

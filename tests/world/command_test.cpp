@@ -4,6 +4,7 @@
 #include "engine/geometry/make_mesh.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -208,7 +209,7 @@ TEST_CASE(
   other.run(0.2);
   CHECK(other->state_hash() == w->state_hash());
   const auto played = run_replay(save_replay(*w.world));
-  REQUIRE_MESSAGE(played.ok(), (played.ok() ? "" : played.error().text()));
+  REQUIRE_MESSAGE(played.ok(), test::why_not(played));
   CHECK(played->same);
 }
 
@@ -264,7 +265,7 @@ TEST_CASE("particles and emitters get other definitions, and keep their ids") {
   CHECK_FALSE(w->set_particles({77, 1}, dust).ok());
   CHECK_FALSE(w->set_emitter({77, 1}, jet).ok());
   const auto played = run_replay(save_replay(*w.world));
-  REQUIRE_MESSAGE(played.ok(), played.error().text());
+  REQUIRE_MESSAGE(played.ok(), test::why_not(played));
   CHECK(played->world->state_hash() == w->state_hash());
   // Commands that wait are saved, too.
   dust.detect = true;

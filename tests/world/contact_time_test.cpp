@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -89,7 +90,7 @@ TEST_CASE("the method for the time of contact can be switched while a world runs
     }
     TestWorld copy;
     const Status loaded = copy->load(one->save());
-    REQUIRE_MESSAGE(loaded.ok(), loaded.error().text());
+    REQUIRE_MESSAGE(loaded.ok(), test::why_not(loaded));
     one.step();
     many.step();
     copy.step();

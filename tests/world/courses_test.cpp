@@ -6,6 +6,7 @@
 #include "engine/math/time_course.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 
@@ -18,7 +19,7 @@ using Course = std::shared_ptr<const TimeCourse>;
 
 Course formula(const char* text) {
   auto made = TimeCourse::expression(text);
-  REQUIRE_MESSAGE(made.ok(), made.error().text());
+  REQUIRE_MESSAGE(made.ok(), test::why_not(made));
   return std::make_shared<const TimeCourse>(*std::move(made));
 }
 Course table(TimeCourse::Points points) {
@@ -51,7 +52,7 @@ struct Wheel : TestWorld {
     hinge.frame_a.x = {0, 1, 0};
     hinge.drives[0].motor = motor;
     const auto id = world->create_joint(hinge);
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     joint = *id;
     apply();
   }

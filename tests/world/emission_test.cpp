@@ -3,7 +3,9 @@
 // which must have the same bits.
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -28,7 +30,7 @@ ParticleSystemId system_of(TestWorld& w, bool collide = false, bool fast = true)
 
 EmitterId emitter(TestWorld& w, const EmitterDef& def) {
   const auto id = w->create_emitter(def);
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

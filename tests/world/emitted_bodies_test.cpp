@@ -2,6 +2,7 @@
 // fall, and worlds loaded from snapshots, replayed and of other thread counts.
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <string>
@@ -24,7 +25,7 @@ EmitterDef feeder(double rate) {
 
 EmitterId emitter(TestWorld& w, const EmitterDef& def) {
   const auto id = w->create_emitter(def);
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

@@ -6,6 +6,7 @@
 #include "engine/math/ode/integrator.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 
@@ -215,7 +216,7 @@ TEST_CASE("event world: a snapshot has the same future and saves the same bytes"
   for (int i = 0; i < test::scaled(60); ++i) {
     TestWorld copy({}, 1, fallback);
     const Status loaded = copy->load(w->save());
-    REQUIRE_MESSAGE(loaded.ok(), loaded.error().text());
+    REQUIRE_MESSAGE(loaded.ok(), test::why_not(loaded));
     w.step();
     copy.step();
     CHECK(copy->state_hash() == w->state_hash());

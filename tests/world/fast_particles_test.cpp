@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <array>
 #include <cmath>
@@ -40,7 +41,7 @@ ParticleSystemId add_fast(TestWorld& w, std::vector<ParticleDef> particles, doub
   def.restitution = restitution;
   def.fast = true;
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

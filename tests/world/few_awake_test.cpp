@@ -4,6 +4,7 @@
 // again. Equal to the bit.
 #include "engine/core/random.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -113,7 +114,7 @@ struct Yard {
       wind.targets.bodies = {any_box()};
       wind.gusts = r.below(2) ? 0.5 : 0;
       const auto id = w->create_force(wind);
-      REQUIRE_MESSAGE(id.ok(), id.error().text());
+      REQUIRE_MESSAGE(id.ok(), test::why_not(id));
       breeze = *id;
     }
     windy = !windy;
@@ -130,7 +131,7 @@ struct Yard {
     if (def.a == def.b) return;
     def.frame_b.x = w.body(def.b).body_frame().inverse_point(w.body(def.a).pose.x);
     const auto id = w->create_joint(def);
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     link = *id;
     linked = true;
   }

@@ -2,6 +2,7 @@
 // balance, the same state by another way (threads, snapshots, ticks that fail).
 #include "engine/dynamics/particles/fluid_def.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <array>
 #include <cmath>
@@ -36,7 +37,7 @@ ParticleSystemDef water(const Vec3& low, int nx, int ny, int nz) {
 
 ParticleSystemId add(TestWorld& w, ParticleSystemDef def) {
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }
@@ -80,7 +81,7 @@ TEST_CASE("fluids: threads, and a world loaded in between, have the same bits") 
       if (n == 7) {
         const Bytes saved = one->save();
         const Status ok = loaded->load(saved);
-        REQUIRE_MESSAGE(ok.ok(), (ok.ok() ? "" : ok.error().text()));
+        REQUIRE_MESSAGE(ok.ok(), test::why_not(ok));
       }
       for (TestWorld* w : {&one, &two, &four}) w->step();
       if (n >= 7) loaded.step();

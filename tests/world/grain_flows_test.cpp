@@ -5,6 +5,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,7 @@ ParticleSystemDef column(double radius, double height, const GrainDef& grains, d
 
 ParticleSystemId add(TestWorld& w, ParticleSystemDef def) {
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

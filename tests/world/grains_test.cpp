@@ -2,6 +2,7 @@
 // snapshot; the books' own balance; under the event stepper the same particles without the mark.
 #include "engine/core/random.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -37,7 +38,7 @@ ParticleSystemDef heap(int across, int layers) {
 
 ParticleSystemId add(TestWorld& w, ParticleSystemDef def) {
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

@@ -3,6 +3,7 @@
 // kinetic energy; conserved energy; the same run from a snapshot.
 #include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -49,7 +50,7 @@ struct Mechanism : TestWorld {
   }
   JointId join(const JointDef& d) {
     const auto id = world->create_joint(d);
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     apply();
     return *id;
   }

@@ -2,6 +2,7 @@
 // snapshots, both steppers. References: closed forms, and that the books close.
 #include "engine/math/time_course.hpp"
 #include "engine/world/world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 
@@ -43,14 +44,14 @@ struct Hinged {
     hinge.frame_b.x = -offset;
     hinge.drives[0] = drive;
     const auto id = world->create_joint(hinge);
-    REQUIRE_MESSAGE(id.ok(), id.error().text());
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     joint = *id;
     REQUIRE(world->apply_commands().ok());
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       const auto done = world->step();
-      REQUIRE_MESSAGE(done.ok(), done.error().text());
+      REQUIRE_MESSAGE(done.ok(), test::why_not(done));
     }
   }
   const CoordinateFrame& angle() const { return frame().coordinates[0]; }

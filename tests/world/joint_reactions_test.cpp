@@ -5,6 +5,7 @@
 // load in many ways.
 #include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <array>
 #include <cmath>
@@ -54,7 +55,7 @@ JointDef joint(JointKind kind, BodyId a, BodyId b, const Vec3& on_a, const Vec3&
 
 std::vector<JointReaction> reactions(const World& w) {
   auto found = w.joint_reactions();
-  REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().text()));
+  REQUIRE_MESSAGE(found.ok(), test::why_not(found));
   return *std::move(found);
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/core/random.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -60,7 +61,7 @@ TEST_CASE("under every narrow phase a world repeats bit for bit, saved or not, f
     for (int i = 0; i < 60; ++i) {
       TestWorld copy;
       const Status loaded = copy->load(one->save());
-      REQUIRE_MESSAGE(loaded.ok(), loaded.error().text());
+      REQUIRE_MESSAGE(loaded.ok(), test::why_not(loaded));
       one.step();
       many.step();
       copy.step();

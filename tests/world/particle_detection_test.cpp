@@ -3,6 +3,7 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 
@@ -18,7 +19,7 @@ ParticleSystemId dust(TestWorld& w, std::vector<ParticleDef> particles, bool det
   def.collide = false;
   def.particles = std::move(particles);
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   return *id;
 }
 

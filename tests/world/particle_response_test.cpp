@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ ParticleSystemDef system_of(std::vector<ParticleDef> particles, double friction,
 
 ParticleSystemId add_system(TestWorld& w, ParticleSystemDef def) {
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

@@ -3,6 +3,7 @@
 #include "engine/world/queries/query_scene.hpp"
 #include "tests/collision/support.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 /// Worlds and brute force for the tests of queries.
 namespace tumble::test {
@@ -47,7 +48,7 @@ inline TestWorld crowd(int count, double half, const Vec3& middle, uint64_t seed
     }
     if (def.shapes.empty()) def.shapes.push_back({shapes.back(), {}, {}});
     auto id = w->create_body(def);
-    REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
     if (r.below(8) == 0) gone.push_back(*id);
   }
   ParticleSystemDef dust;
@@ -82,7 +83,7 @@ void for_all_shapes(const Frame& frame, bool particles, const F& f) {
 /// What must answer, or the test fails.
 template <class T>
 T answer(Result<T> r) {
-  REQUIRE_MESSAGE(r.ok(), (r.ok() ? "" : r.error().text()));
+  REQUIRE_MESSAGE(r.ok(), test::why_not(r));
   return std::move(r).value();
 }
 

@@ -6,6 +6,7 @@
 #include "engine/world/replay.hpp"
 #include "engine/world/sensors/sensor.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 
 SensorId sensor(TestWorld& w, const SensorDef& def) {
   const auto id = w->create_sensor(def);
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   return *id;
 }

@@ -4,6 +4,7 @@
 #include "engine/world/keyframes.hpp"
 #include "engine/world/replay.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -41,7 +42,7 @@ std::unique_ptr<World> loaded(const Bytes& snapshot, int threads = 1) {
   auto made = World::create(std::move(def));
   REQUIRE(made.ok());
   const Status s = (*made)->load(snapshot);
-  REQUIRE_MESSAGE(s.ok(), s.error().text());
+  REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   return std::move(*made);
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("step back and restart by keyframes give the bits of the first time, e
   }
   for (const uint64_t tick : {99u, 98u, 61u, 40u, 38u, 36u, 5u, 0u}) {
     const Status s = ring.seek(*w.world, tick);
-    REQUIRE_MESSAGE(s.ok(), s.error().text());
+    REQUIRE_MESSAGE(s.ok(), test::why_not(s));
     CHECK(w->tick() == tick);
     CHECK(w->state_hash() == hashes[tick]);
   }
@@ -187,7 +188,7 @@ TEST_CASE("a replay log runs to the same hash in a fresh world") {
   }
   const Bytes replay = save_replay(*w.world);
   auto again = run_replay(replay);
-  REQUIRE_MESSAGE(again.ok(), again.error().text());
+  REQUIRE_MESSAGE(again.ok(), test::why_not(again));
   CHECK(again->same);
   CHECK(again->world->state_hash() == w->state_hash());
 }

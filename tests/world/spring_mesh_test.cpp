@@ -4,6 +4,7 @@
 // momenta that nothing changes; a world that was saved and loaded; sums of the books.
 #include "engine/dynamics/forces/weave.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -27,7 +28,7 @@ Woven add_weave(TestWorld& w, Weave weave, bool collide = false, double break_st
   def.particles = weave.particles;
   def.collide = collide;
   const auto id = w->create_particles(def);
-  REQUIRE_MESSAGE(id.ok(), id.error().text());
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   SpringMeshDef mesh = tie(std::move(weave), *id, 1);
   mesh.break_strain = break_strain;
@@ -35,7 +36,7 @@ Woven add_weave(TestWorld& w, Weave weave, bool collide = false, double break_st
 }
 
 Weave made(Result<Weave> weave) {
-  REQUIRE_MESSAGE(weave.ok(), weave.error().text());
+  REQUIRE_MESSAGE(weave.ok(), test::why_not(weave));
   return std::move(*weave);
 }
 

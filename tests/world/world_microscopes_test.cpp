@@ -8,6 +8,7 @@
 #include "engine/world/microscope/microscope.hpp"
 #include "engine/world/tick_watch.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -185,7 +186,7 @@ TEST_CASE("the steps of a descent have the plain query's counts and find what br
   def.type = ShapeType::triangle_mesh;
   def.mesh = knot;
   auto ring = make_shape(def);
-  REQUIRE_MESSAGE(ring.ok(), (ring.ok() ? "" : ring.error().text()));
+  REQUIRE_MESSAGE(ring.ok(), test::why_not(ring));
   MicroscopeSlide slide;
   const Pose a{Vec3::Zero(), Quat::Identity()},
       b{Vec3(0.6, 0.2, 0.1), Quat(0.7, 0.6, 0.1, 0.3).normalized()};
@@ -315,7 +316,7 @@ TEST_CASE("of a solve of dfsph that takes hundreds of iterations the first and t
     def.particles.push_back(p);
   }
   const auto id = w->create_particles(std::move(def));
-  REQUIRE_MESSAGE(id.ok(), (id.ok() ? "" : id.error().text()));
+  REQUIRE_MESSAGE(id.ok(), test::why_not(id));
   w.apply();
   TickWatch watch;
   watch.fluid = *id;

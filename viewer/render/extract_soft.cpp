@@ -2,6 +2,7 @@
 
 #include "engine/math/det/det.hpp"
 #include "viewer/render/foam.hpp"
+#include "viewer/render/liquid_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +28,15 @@ double median_radius(const ParticleFrame& p) {
   return *middle;
 }
 
-/// The radius of a particle's ball over its own.
-double ball_of_share(double share) {
+/// How much a particle of that density is part of the liquid and no drop, 0..1.
+double wholeness(double share) {
   const double u = std::clamp((share - least_share) / (grown_share - least_share), 0.0, 1.0);
-  return drop_radius + (ball_radius - drop_radius) * u * u * (3 - 2 * u);
+  return u * u * (3 - 2 * u);
+}
+
+std::array<float, 6> packed(const Mat3& m) {
+  return {float(m(0, 0)), float(m(1, 1)), float(m(2, 2)),
+          float(m(0, 1)), float(m(0, 2)), float(m(1, 2))};
 }
 
 /// A number in 0..1 that is a particle's own.
@@ -46,7 +52,11 @@ double own_number(uint64_t id) {
 void add_liquid(const ParticleFrame& p, std::span<const Vec3> x, RenderScene& out) {
   if (x.empty()) return;
   const double radius = median_radius(p);
-  const std::vector<float> foam = foam_of({x, p.v, p.share, 2 * radius});
+  const LiquidNeighbours neighbours(x, 2 * radius);
+  const std::vector<float> foam = foam_of(neighbours, p.v, p.share);
+  std::vector<double> whole(x.size(), 1);
+  for (size_t i = 0; i < p.share.size(); ++i) whole[i] = wholeness(double(p.share[i]));
+  const std::vector<LiquidShape> shapes = liquid_shapes(neighbours, whole);
   FluidSurface fluid;
   fluid.colour = p.colour.front();
   const double clarity = p.look.clarity > 0 ? p.look.clarity : radii_of_clarity * radius;
@@ -56,9 +66,9 @@ void add_liquid(const ParticleFrame& p, std::span<const Vec3> x, RenderScene& ou
   fluid.fill = float(8 / (4 * det::pi / 3 * ball_radius * ball_radius * ball_radius));
   fluid.particles.reserve(x.size());
   for (size_t i = 0; i < x.size(); ++i) {
-    const double share = i < p.share.size() ? double(p.share[i]) : 1;
-    const double r = p.radius[i] * ball_of_share(share);
-    fluid.particles.push_back({x[i].cast<float>(), float(r), foam[i] * float(p.look.foam)});
+    const double r = p.radius[i] * (drop_radius + (ball_radius - drop_radius) * whole[i]);
+    fluid.particles.push_back({shapes[i].centre.cast<float>(), float(r),
+                               foam[i] * float(p.look.foam), packed(shapes[i].to_ball)});
   }
   out.fluids.push_back(std::move(fluid));
 }

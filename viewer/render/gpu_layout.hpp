@@ -42,6 +42,16 @@ struct GpuSphere {
 };
 static_assert(sizeof(GpuSphere) == 32);
 
+/// A particle of a liquid, as FluidParticle.
+struct GpuFluidParticle {
+  std::array<float, 3> centre;
+  float radius;
+  std::array<float, 6> to_ball;
+  float foam;
+  float unused;
+};
+static_assert(sizeof(GpuFluidParticle) == 48);
+
 /// A puff of smoke: one instance of a square.
 struct GpuPuff {
   std::array<float, 4> place;   ///< centre, radius [m]

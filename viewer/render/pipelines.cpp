@@ -133,6 +133,11 @@ void make_soft(Maker& maker, Pipelines& p) {
   p.narrow_range_x = maker.make("narrow_range_x", d, "screen.vert", "narrow_range_x.frag");
   p.narrow_range_y = maker.make("narrow_range_y", d, "screen.vert", "narrow_range_y.frag");
   d = sphere_desc();
+  d.attributes = {{0, 0, AttributeType::f32, 4, 0},
+                  {1, 0, AttributeType::f32, 3, 16},
+                  {2, 0, AttributeType::f32, 3, 28},
+                  {3, 0, AttributeType::f32, 1, 40}};
+  d.stride = {sizeof(GpuFluidParticle), 0};
   d.uniform_blocks = {"Frame", "Soft"};
   p.fluid_depth = maker.make("fluid_depth", d, "fluid_ball.vert", "fluid_depth.frag");
   d.textures = {"scene_depth", "front"};

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 /// Each has about 0.7 times the pixels of the one before; below the last, edges are seen as stairs.
-constexpr std::array<float, 5> steps = {1, 0.84f, 0.71f, 0.59f, 0.5f};
+constexpr std::array<float, 5> scales = {1, 0.84f, 0.71f, 0.59f, 0.5f};
 
 /// Longer is no longer seen as motion [s]. A ninth above the period of a display of 30 Hz, so that
 /// waiting for it, with its jitter, is not slowness.
@@ -24,13 +24,13 @@ constexpr double on_time = 1.1;  ///< periods of the display, with its jitter
 constexpr double worse = 1.25;   ///< times what was in vain: they are tried again
 
 double pixels_of(int step) {
-  return double(steps[size_t(step)]) * double(steps[size_t(step)]);
+  return double(scales[size_t(step)]) * double(scales[size_t(step)]);
 }
 
 }  // namespace
 
 float ResolutionControl::resolution() const {
-  return steps[size_t(step_)];
+  return scales[size_t(step_)];
 }
 
 /// By as many steps as it takes if all of the time goes with the pixels.
@@ -39,7 +39,7 @@ void ResolutionControl::lower() {
   const double now = pixels_of(step_);
   from_ = step_;
   do ++step_;
-  while (step_ + 1 < int(steps.size()) && least_slow_ * pixels_of(step_) > slow * now);
+  while (step_ + 1 < int(scales.size()) && least_slow_ * pixels_of(step_) > slow * now);
   before_ = least_slow_;
   trial_ = patience;
   slow_ = quick_ = 0;
@@ -67,7 +67,7 @@ void ResolutionControl::see(double seconds, double period) {
   if (fluent_ == longest_wait) vain_ = 0;
   if (lowered_in_vain(seconds)) return go_back();
   if (slow_ >= patience) {
-    if (step_ + 1 < int(steps.size()) && least_slow_ > worse * vain_) return lower();
+    if (step_ + 1 < int(scales.size()) && least_slow_ > worse * vain_) return lower();
     slow_ = 0;  // the next ones are judged by themselves
   }
   if (is_slow || step_ == 0) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/math/types.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,8 +12,14 @@ namespace tumble {
 /// A particle of a liquid: the surface goes around all of them together.
 struct FluidParticle {
   Vec3f centre = Vec3f::Zero();
-  float radius = 0.05f;  ///< of the ball that it is for the surface [m]
+  float radius = 0.05f;  ///< longest half axis of the ellipsoid that it is for the surface [m]
   float foam = 0;        ///< how white the liquid is there, 0..1
+  /// The symmetric matrix that makes a ball of this radius of the ellipsoid: xx, yy, zz, xy, xz,
+  /// yz; no eigenvalue is below 1 [-].
+  std::array<float, 6> to_ball{1, 1, 1, 0, 0, 0};
+
+  /// No more than the shortest half axis, and equal to it where the others are equal [m].
+  float least_radius() const { return radius / (to_ball[0] + to_ball[1] + to_ball[2] - 2); }
 };
 
 /// A liquid with one smooth surface.

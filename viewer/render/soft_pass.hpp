@@ -55,7 +55,7 @@ class SoftPass {
   BufferId balls_, puff_instances_, uniforms_;
   SunVeil veil_;
   GpuSoft soft_{};
-  std::vector<GpuSphere> ball_vertices_;
+  std::vector<GpuFluidParticle> ball_vertices_;
 };
 
 }  // namespace tumble

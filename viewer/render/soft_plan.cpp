@@ -87,7 +87,7 @@ ScissorRect area_of(const std::vector<ProjectedDisc>& discs, int width, int heig
 }  // namespace
 
 LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
-                       std::vector<GpuSphere>& vertices) {
+                       std::vector<GpuFluidParticle>& vertices) {
   const Frustum frustum = frustum_of(view.clip_from_world);
   std::vector<const FluidParticle*> seen;
   std::vector<ProjectedDisc> discs;
@@ -98,7 +98,8 @@ LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
     if (!drawable(p) || !in_picture(p, view, frustum, least_ball) ||
         !((x - view.eye).squaredNorm() > 1.05 * r * r))
       continue;
-    const ProjectedDisc disc = disc_in_picture(view, x, r, true);
+    ProjectedDisc disc = disc_in_picture(view, x, r, false);
+    disc.cover_radius = disc_in_picture(view, x, double(p.least_radius()), true).cover_radius;
     seen.push_back(&p);
     discs.push_back(disc);
   }
@@ -116,8 +117,9 @@ LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
     for (size_t i = 0; i < seen.size(); ++i) {
       if ((hidden[i] && !without_outline[i]) != behind) continue;
       const FluidParticle& p = *seen[i];
-      const GpuSphere ball{{p.centre.x(), p.centre.y(), p.centre.z()}, p.radius, {0, 0, 0, p.foam}};
-      vertices.insert(vertices.end(), 3, ball);
+      const GpuFluidParticle vertex{
+          {p.centre.x(), p.centre.y(), p.centre.z()}, p.radius, p.to_ball, p.foam, 0};
+      vertices.insert(vertices.end(), 3, vertex);
     }
     if (!behind) plan.front = uint32_t(vertices.size() / 3);
   }

@@ -5,14 +5,14 @@
 
 namespace tumble {
 
-/// The balls of a liquid that the camera sees, three equal vertices each: first those that no other
-/// stands before, then the rest of those in the picture.
+/// The particles of a liquid that the camera sees, three equal vertices each: first those that no
+/// other stands before, then the rest of those in the picture.
 struct LiquidPlan {
-  uint32_t front = 0, all = 0;  ///< numbers of balls
+  uint32_t front = 0, all = 0;  ///< numbers of particles
   ScissorRect area;             ///< of the picture, that they are within
 };
 LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
-                       std::vector<GpuSphere>& vertices);
+                       std::vector<GpuFluidParticle>& vertices);
 
 /// The part of the picture in which the shade of a veil can fall, when nothing is below the height
 /// `lowest`; none where that is out of sight.

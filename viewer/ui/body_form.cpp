@@ -6,6 +6,8 @@
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
+#include <functional>
+
 #include <fmt/format.h>
 #include <imgui.h>
 

@@ -6,6 +6,8 @@
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "engine/collision/triangle_core.hpp"
 #include "engine/core/stop.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace tumble {

@@ -41,8 +41,8 @@ Status check_material(const Material& m, const std::string& place) {
   if (!(m.density >= 0 && std::isfinite(m.density))) {
     return invalid(fmt::format("density must be >= 0, got {} kg/m3", m.density), place);
   }
-  for (const auto& [name, arm] : {std::pair("rolling_friction", m.rolling_friction),
-                                  std::pair("torsional_friction", m.torsional_friction)}) {
+  for (const auto& [name, arm] : {std::pair("rolling_friction", m.rolling_arm()),
+                                  std::pair("torsional_friction", m.torsional_arm())}) {
     if (!(arm >= 0 && std::isfinite(arm)))
       return invalid(fmt::format("{} must be >= 0, got {} m", name, arm), place);
   }
@@ -183,7 +183,7 @@ Status set_mass(RigidBody& body, const MassProperties& m) {
   return {};
 }
 
-Result<std::shared_ptr<const Shape>> make_at(const ShapeDef& def, const ShapeFactory& make,
+Result<std::shared_ptr<const Shape>> make_at(const ShapeDef& def, ShapeFactory make,
                                              const std::string& place) {
   Result<std::shared_ptr<const Shape>> shape = make(def);
   if (shape) return shape;
@@ -195,7 +195,7 @@ Result<std::shared_ptr<const Shape>> make_at(const ShapeDef& def, const ShapeFac
 /// Relative to the centre of mass.
 Result<std::shared_ptr<const std::vector<DrawnShape>>> drawn_shapes(const BodyDef& def,
                                                                     const Vec3& centre,
-                                                                    const ShapeFactory& make) {
+                                                                    ShapeFactory make) {
   auto out = std::make_shared<std::vector<DrawnShape>>();
   for (size_t i = 0; i < def.drawn.size(); ++i) {
     const DrawnShapeDef& s = def.drawn[i];
@@ -214,7 +214,7 @@ std::shared_ptr<const BoundsTree> tree_of(std::span<const BodyShape> shapes) {
 
 }  // namespace
 
-Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
+Result<RigidBody> make_body(const BodyDef& def, ShapeFactory make) {
   if (Status s = check_def(def); !s) return s.error();
   RigidBody body;
   body.type = def.type;
@@ -254,6 +254,10 @@ Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make) {
   const Quat q = unit(def.pose.q);
   body.pose = {def.pose.x + q * body.centre_body, q};
   return body;
+}
+
+Result<RigidBody> make_body(const BodyDef& def) {
+  return make_body(def, make_shape);
 }
 
 }  // namespace tumble

@@ -1,13 +1,13 @@
 #pragma once
 #include "engine/collision/bounds_tree.hpp"
 #include "engine/collision/shape.hpp"
+#include "engine/core/function_ref.hpp"
 #include "engine/core/handle.hpp"
 #include "engine/dynamics/bodies/mesh_source.hpp"
 #include "engine/math/types.hpp"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +25,8 @@ enum class BodyType : uint8_t {
   dynamic,    ///< moved by forces and contacts
 };
 
-/// Rolling and torsional friction unless given [m]: of the order of what dry wood on wood has
+/// Rolling and torsional friction of materials that do not name them, under the realtime stepper
+/// [m]: of the order of what dry wood on wood has
 /// (tables give 0.5 to 1.5 mm for rolling), as if the bodies touched in a patch of a millimetre.
 inline constexpr double default_turning_friction = 5e-4;
 
@@ -39,8 +40,12 @@ struct Material {
   Vec3 surface_velocity = Vec3::Zero();
   /// Lever arms of the torques with which a contact in a point or along a line resists turning
   /// under the normal force N: about axes in its tangent plane up to rolling_friction N, about its
-  /// normal up to torsional_friction N [m].
-  double rolling_friction = default_turning_friction, torsional_friction = default_turning_friction;
+  /// normal up to torsional_friction N [m]. Not given, default_turning_friction under the realtime
+  /// stepper; under the event stepper none where neither of the two materials gives one.
+  std::optional<double> rolling_friction = {}, torsional_friction = {};
+
+  double rolling_arm() const { return rolling_friction.value_or(default_turning_friction); }
+  double torsional_arm() const { return torsional_friction.value_or(default_turning_friction); }
 };
 
 /// How a body should look; carried for the viewer, without effect on the motion.
@@ -192,10 +197,12 @@ struct BodySet {
 };
 
 /// Builds or finds the shape of a definition; worlds pass one that shares equal shapes.
-using ShapeFactory = std::function<Result<std::shared_ptr<const Shape>>(const ShapeDef&)>;
+using ShapeFactory = FunctionRef<Result<std::shared_ptr<const Shape>>(const ShapeDef&)>;
 
 /// Fills the constants of a body from its definition: shapes, mass, inertia, centre.
 /// Errors name the shape and the value.
-Result<RigidBody> make_body(const BodyDef& def, const ShapeFactory& make = make_shape);
+Result<RigidBody> make_body(const BodyDef& def, ShapeFactory make);
+/// With shapes of its own.
+Result<RigidBody> make_body(const BodyDef& def);
 
 }  // namespace tumble

@@ -56,8 +56,11 @@ inline void take_materials(Contact& contact, const PairSide& a, const PairSide& 
   const bool narrow = contact.pressing() < 3;
   contact.friction = combined.friction;
   contact.restitution = combined.restitution;
-  contact.rolling_friction = narrow ? combined.rolling_friction : 0;
-  contact.torsional_friction = narrow ? combined.torsional_friction : 0;
+  const auto arm = [narrow](double of_a, double of_b) {
+    return narrow ? std::sqrt(of_a * of_b) : 0;
+  };
+  contact.rolling_friction = arm(a.rolling_friction, b.rolling_friction);
+  contact.torsional_friction = arm(a.torsional_friction, b.torsional_friction);
   if (!contact.resists_turning()) contact.turning_torque.setZero();
   contact.surface_velocity = on_a.belt - on_b.belt;
 }

@@ -99,16 +99,13 @@ Vec3 contact_impulse(const Contact& contact, int i);
 struct CombinedMaterial {
   double friction = 0;
   double restitution = 0;
-  double rolling_friction = 0, torsional_friction = 0;  ///< [m]
 };
-/// Friction sqrt(mu_A mu_B), rolling and torsional friction likewise, restitution the larger. Of
-/// two materials, or what carries their coefficients.
+/// Friction sqrt(mu_A mu_B), restitution the larger. Of two materials, or what carries their
+/// coefficients.
 template <class Side>
 CombinedMaterial combine(const Side& a, const Side& b) {
   return {std::sqrt(a.friction * b.friction),
-          a.restitution < b.restitution ? b.restitution : a.restitution,
-          std::sqrt(a.rolling_friction * b.rolling_friction),
-          std::sqrt(a.torsional_friction * b.torsional_friction)};
+          a.restitution < b.restitution ? b.restitution : a.restitution};
 }
 
 /// What is known of some pairs, each list sorted.

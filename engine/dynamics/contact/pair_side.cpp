@@ -16,8 +16,8 @@ SideSurface surface_on(const RigidBody& body, const Material& material, bool par
   s.friction = material.friction;
   s.restitution = material.restitution;
   if (!particle) {
-    s.rolling_friction = material.rolling_friction;
-    s.torsional_friction = material.torsional_friction;
+    s.rolling_friction = material.rolling_arm();
+    s.torsional_friction = material.torsional_arm();
   }
   if (!material.surface_velocity.isZero(0)) s.belt = body.pose.direction(material.surface_velocity);
   return s;

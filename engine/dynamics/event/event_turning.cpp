@@ -4,14 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace tumble {
 namespace {
 
-double combined_arm(double a, double b) {
-  const bool named = a != default_turning_friction || b != default_turning_friction;
-  return named ? std::sqrt(a * b) : 0;
+/// Of two materials, where one of them names it.
+double combined_arm(std::optional<double> a, std::optional<double> b) {
+  if (!a && !b) return 0;
+  return std::sqrt(a.value_or(default_turning_friction) * b.value_or(default_turning_friction));
 }
 
 bool turns_by_torques(const RigidBody& b) {

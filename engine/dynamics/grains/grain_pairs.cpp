@@ -1,6 +1,7 @@
 #include "engine/dynamics/grains/grain_pairs.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void GrainPairs::each_cell(Crew* crew, const Wants& wants, const F& f) {
         if (first == last) return;
         search.first = cells[first].first;
         search.last = cells[last - 1].end;
-        for (size_t c = first; c < last; ++c) {
+        for (size_t c = first; c < last && !stop_requested(); ++c) {
           if (!wants(c)) continue;
           search.near.collect(cells_, cells[c]);
           f(search, cells[c]);

@@ -121,7 +121,9 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   memory_.recall(tick, grains_, touches, pairs_, bodies_.walls(), bodies_.held(), hs);
   if (stop_requested()) return stopped_error();
   bundles_.lay_out(pairs_, grains_, tick.crew);
+  if (stop_requested()) return stopped_error();
   bundles_.fill(tick, pairs_, grains_, memory_.forces(), hs);
+  if (stop_requested()) return stopped_error();
   find_touched();
   copy_places(grains_, from_);
   const GrainPairWork work = solve_grains(
@@ -135,6 +137,7 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   count(work, report);
   if (stop_requested()) return stopped_error();
   bundles_.read(memory_.forces(), hs, tick.crew);
+  if (stop_requested()) return stopped_error();
   memory_.store(tick, grains_, pairs_, bodies_.walls(), bodies_.held(), hs, touches);
   for (const uint32_t i : memory_.lost()) wake_again(tick, i);
   return {};

@@ -3,6 +3,7 @@
 #include "engine/collision/shape_near.hpp"
 #include "engine/collision/shapes/box.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>

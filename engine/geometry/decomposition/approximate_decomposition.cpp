@@ -82,10 +82,14 @@ class ApproximateDecomposer {
         surface_.bounds().min.cwiseAbs().cwiseMax(surface_.bounds().max.cwiseAbs()).maxCoeff();
     tolerance_ = std::max(tolerances::on_plane_roughly * diagonal, tolerances::on_plane_far * far);
     bound_ = options_.concavity > 0 ? options_.concavity : diagonal / 50;
-    if (Status s = start(); !s) return s.error();
-    if (Status s = cut_all(); !s) return s.error();
-    if (Status s = merge_all(); !s) return s.error();
-    return finish();
+    Status done = start();
+    if (done) done = cut_all();
+    if (done) done = merge_all();
+    if (stop_requested()) return stopped_error();
+    if (!done) return done.error();
+    Result<ConvexDecomposition> out = finish();
+    if (stop_requested()) return stopped_error();
+    return out;
   }
 
  private:
@@ -100,9 +104,10 @@ class ApproximateDecomposer {
     size_t notches = 0;
     for (const SolidPiece& s : solids) notches += find_notches(space_, s, tolerance_).size();
     if (notches <= most_notches && start_with_exact_pieces()) return {};
-    if (stop_requested()) return stopped_error();
-    for (SolidPiece& s : solids)
+    for (SolidPiece& s : solids) {
+      if (stop_requested()) return stopped_error();
       if (auto part = make_part(std::move(s))) parts_.push_back(*std::move(part));
+    }
     if (parts_.empty())
       return Error{
           ErrorCode::invalid_argument, "the mesh is too thin to be cut into solids", {}, {}};
@@ -120,6 +125,7 @@ class ApproximateDecomposer {
     if (!pieces) return false;
     cuts_ = pieces->cuts;
     for (ConvexPiece& piece : pieces->pieces) {
+      if (stop_requested()) return false;
       Part& part = parts_.emplace_back();
       part.piece = std::move(piece);
       measure(part);
@@ -185,6 +191,7 @@ class ApproximateDecomposer {
 
   bool cut(size_t number) {
     for (const CutPlane& plane : ranked(parts_[number].stands_for, candidate_planes(number))) {
+      if (stop_requested()) return false;
       CutRequest request;
       const auto& [a, b, c] = plane.through;
       request.plane = space_.add_plane(a, b, c);
@@ -246,6 +253,7 @@ class ApproximateDecomposer {
     const double whole = hull_volume(mesh.vertices, tolerance_);
     const std::vector<double> paired = pair_volumes(mesh, planes);
     const auto score = [&](size_t i) {
+      if (stop_requested()) return;
       volume[i] = split_volume(mesh, planes[i].near);
       // Four parts are three cuts.
       if (i < paired.size()) volume[i] = std::min(volume[i], whole - (whole - paired[i]) / 3);
@@ -272,7 +280,7 @@ class ApproximateDecomposer {
     std::vector<double> least(count, anywhere);
     std::vector<double> found(count * count, anywhere);
     const auto score = [&](size_t i) {
-      for (size_t j = (i / slices + 1) * slices; j < count; ++j)
+      for (size_t j = (i / slices + 1) * slices; j < count && !stop_requested(); ++j)
         found[i * count + j] = quarter_volume(mesh, planes[i].near, planes[j].near);
     };
     if (options_.crew) {
@@ -402,9 +410,9 @@ class ApproximateDecomposer {
   std::vector<Merger>::iterator choose(std::vector<Merger>& mergers, bool must) const {
     std::stable_sort(mergers.begin(), mergers.end(),
                      [](const Merger& a, const Merger& b) { return a.grown < b.grown; });
-    for (auto m = mergers.begin(); m != mergers.end(); ++m)
+    for (auto m = mergers.begin(); m != mergers.end() && !stop_requested(); ++m)
       if (within_mesh(*m) && within_itself(*m)) return m;
-    if (!must) return mergers.end();
+    if (!must || stop_requested()) return mergers.end();
     const auto in_mesh =
         std::find_if(mergers.begin(), mergers.end(), [&](Merger& m) { return within_mesh(m); });
     if (in_mesh != mergers.end()) return in_mesh;
@@ -420,6 +428,7 @@ class ApproximateDecomposer {
 
   enum class Neighbours : uint8_t { only, or_not };
   void offer(size_t a, size_t b, Neighbours which, std::vector<Merger>& mergers) const {
+    if (stop_requested()) return;
     const Part &pa = parts_[a], &pb = parts_[b];
     if (which == Neighbours::only && !pa.box.inflated(tolerance_).overlaps(pb.box)) return;
     std::vector<Vec3> points = pa.piece.hull.vertices;

@@ -1,5 +1,6 @@
 #include "engine/geometry/decomposition/hull_error.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/geometry/constructions/surface_samples.hpp"
 #include "engine/geometry/decomposition/convex_decomposition.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
@@ -40,7 +41,7 @@ double reach_outside(const TriangleMesh& convex, const Hierarchy& surface, size_
   const SurfaceSamples on_surface(convex);
   const InsideSamples inside(convex);
   double worst = 0;
-  for (size_t n = 1; n <= samples && worst <= enough; ++n) {
+  for (size_t n = 1; n <= samples && worst <= enough && !stop_requested(); ++n) {
     offer(on_surface(n).point, surface, worst);
     offer(inside(n), surface, worst);
   }
@@ -59,7 +60,7 @@ HullError measure_hulls(const std::vector<ConvexPiece>& pieces, const Hierarchy&
     out.added = std::max(out.added, reach_outside(hulls.back()->mesh(), surface, share, no_limit));
   }
   const SurfaceSamples on_surface(surface.mesh());
-  for (size_t n = 1; n <= samples; ++n) {
+  for (size_t n = 1; n <= samples && !stop_requested(); ++n) {
     const Vec3 p = on_surface(n).point;
     double least = no_limit;
     for (size_t k = 0; k < pieces.size() && least > out.missing; ++k)

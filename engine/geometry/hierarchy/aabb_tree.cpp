@@ -4,6 +4,8 @@
 #include "engine/geometry/hierarchy/bounding_tree_pairs.hpp"
 #include "engine/geometry/hierarchy/bounding_tree_queries.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 

@@ -43,7 +43,8 @@ struct MaterialDescription {
              .max = 1e3,
              .doc = "where bodies touch in a point or along a line, the torque against rolling is "
                     "at most this lever arm times the normal force; of two bodies sqrt(a b) "
-                    "counts; 0.0005 unless given; the event stepper takes any other value"});
+                    "counts. Not given: 0.0005, and under the event stepper 0 if neither of the "
+                    "two gives one"});
     v.field(d.torsional_friction,
             {.name = "torsional_friction",
              .unit = "m",
@@ -51,8 +52,8 @@ struct MaterialDescription {
              .max = 1e3,
              .doc = "where bodies touch in a point or along a line, the torque against spinning "
                     "about the normal is at most this lever arm times the normal force; of two "
-                    "bodies sqrt(a b) counts; 0.0005 unless given; the event stepper takes any "
-                    "other value"});
+                    "bodies sqrt(a b) counts. Not given: 0.0005, and under the event stepper 0 if "
+                    "neither of the two gives one"});
   }
 };
 

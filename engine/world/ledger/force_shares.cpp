@@ -97,7 +97,9 @@ void add_springs(const std::vector<std::optional<ForceDef>>& forces, ForceContex
   springs.clear();
   for (size_t i = 0; i < forces.size(); ++i)
     if (forces[i] && (!filter || filter(*forces[i]))) springs.add(*forces[i], i);
+  if (stop_requested()) return;
   pull_springs(springs.all(), context, supports, pulls);
+  if (stop_requested()) return;
   springs.share(pulls, context, shares);
 }
 

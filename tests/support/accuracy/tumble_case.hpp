@@ -2,6 +2,8 @@
 #include "engine/world/world.hpp"
 #include "tests/support/accuracy/case_world.hpp"
 
+#include <functional>
+
 namespace tumble::test {
 
 /// A case in a World, by its public interface.

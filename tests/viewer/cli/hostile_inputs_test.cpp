@@ -6,6 +6,7 @@
 #include "tests/support/scale.hpp"
 #include "tests/viewer/cli/program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 

@@ -2,6 +2,7 @@
 // hand, a reader of OBJ files of a dozen lines below, and what is in the folders afterwards.
 #include "tests/viewer/cli/program.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>

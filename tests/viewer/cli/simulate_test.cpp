@@ -2,6 +2,7 @@
 // read back by an independent reader (line by line, nlohmann-json).
 #include "tests/viewer/cli/program.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <sstream>
 

@@ -1,4 +1,5 @@
 // Contexts without a display. Reference: what EGL and OSMesa of this machine report.
+#include "tests/support/why_not.hpp"
 #include "viewer/context/gl_context.hpp"
 #include "viewer/render/gl/gl_device.hpp"
 
@@ -22,7 +23,7 @@ TEST_CASE("every offscreen backend gives a current context of 3.3 or later") {
   for (const char* name : {"auto", "egl", "egl:0", "surfaceless", "osmesa"}) {
     CAPTURE(name);
     auto choice = create_context(name);
-    REQUIRE_MESSAGE(choice.ok(), (choice.ok() ? "" : choice.error().text()));
+    REQUIRE_MESSAGE(choice.ok(), test::why_not(choice));
     const ContextInfo& info = choice->context->info();
     CHECK_FALSE(info.renderer.empty());
     CHECK(info.version.substr(0, 1) >= "3");
@@ -61,7 +62,7 @@ TEST_CASE("an EGL device is found by part of its name, in any case") {
   std::string part = renderer.substr(0, renderer.find(' '));
   for (char& c : part) c = char(std::toupper(c));
   const auto found = create_context("egl:" + part);
-  REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().text()));
+  REQUIRE_MESSAGE(found.ok(), test::why_not(found));
   CHECK(found->context->info().name == "egl:0");
   CHECK(found->attempts.back().name == "egl:0");
   for (const char* name : {"egl:no such card", "egl:0x", "egl:-1"}) {

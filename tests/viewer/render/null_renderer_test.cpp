@@ -1,4 +1,5 @@
 // The renderer on the validating device. Reference: the device's own rules, and counts by hand.
+#include "tests/support/why_not.hpp"
 #include "tests/viewer/render/demo_scene.hpp"
 #include "viewer/render/builtin_meshes.hpp"
 #include "viewer/render/null/null_device.hpp"
@@ -23,7 +24,7 @@ struct Studio {
   }
   FrameReport render(const RenderScene& scene, int w = 320, int h = 180) {
     auto report = renderer->render(scene, w, h);
-    REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+    REQUIRE_MESSAGE(report.ok(), test::why_not(report));
     return *report;
   }
 };
@@ -40,7 +41,7 @@ TEST_CASE("every kind of content draws without a fault, and nothing leaks") {
     for (const Quality q : {Quality::draft, Quality::standard, Quality::high}) {
       scene.quality = q;
       auto report = (*renderer)->render(scene, 320, 180);
-      REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+      REQUIRE_MESSAGE(report.ok(), test::why_not(report));
       CHECK(report->visible_instances + report->culled_instances ==
             scene.instances.size() + scene.spheres.size());
       CHECK(report->visible_instances > 100);

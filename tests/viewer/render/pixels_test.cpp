@@ -1,5 +1,6 @@
 // Pictures of the GL device. References: the null device (draw-list hash), the other backends of
 // the same Mesa (equal pixels), and what a scene must look like where that is plain.
+#include "tests/support/why_not.hpp"
 #include "tests/viewer/render/demo_scene.hpp"
 #include "viewer/context/gl_context.hpp"
 #include "viewer/render/builtin_meshes.hpp"
@@ -26,13 +27,13 @@ struct Studio {
 
   explicit Studio(const char* context) {
     auto made = create_context(context);
-    REQUIRE_MESSAGE(made.ok(), (made.ok() ? "" : made.error().text()));
+    REQUIRE_MESSAGE(made.ok(), test::why_not(made));
     choice = std::move(*made);
     auto d = make_gl_device(*choice.context);
     REQUIRE(d.ok());
     device = std::move(*d);
     auto r = Renderer::create(*device, *resource_path("shaders"));
-    REQUIRE_MESSAGE(r.ok(), (r.ok() ? "" : r.error().text()));
+    REQUIRE_MESSAGE(r.ok(), test::why_not(r));
     renderer = std::move(*r);
   }
   ~Studio() {
@@ -41,7 +42,7 @@ struct Studio {
   }
   Image picture(const RenderScene& scene, int w = 480, int h = 270) {
     auto report = renderer->render(scene, w, h);
-    REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+    REQUIRE_MESSAGE(report.ok(), test::why_not(report));
     hash = report->draws.hash;
     Image image;
     REQUIRE(renderer->read_back(image).ok());

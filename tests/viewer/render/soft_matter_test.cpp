@@ -1,6 +1,7 @@
 // Liquids and smoke before they reach a device. References: the law of Beer and Lambert, geometry
 // by hand, Galileo's principle (a liquid that moves as a whole does not foam).
 #include "engine/core/random.hpp"
+#include "tests/support/why_not.hpp"
 #include "viewer/render/foam.hpp"
 #include "viewer/render/frame_setup.hpp"
 #include "viewer/render/null/null_device.hpp"
@@ -100,7 +101,7 @@ TEST_CASE("the planned balls of a liquid: all in the picture, those in front fir
   scene.camera.target = Vec3(0.5, 0, 0.5);
   scene.fluids.push_back(slab(0.5));
   const FrameSetup setup = make_frame_setup(scene, 400, 400);
-  std::vector<GpuSphere> vertices;
+  std::vector<GpuFluidParticle> vertices;
   const LiquidPlan plan = plan_liquid(scene.fluids[0], setup.view, vertices);
   CHECK(plan.all == scene.fluids[0].particles.size());
   CHECK(vertices.size() == 3 * plan.all);
@@ -227,14 +228,15 @@ TEST_CASE("liquid that moves as a whole does not foam, where streams meet it doe
   const auto most = [](const std::vector<float>& foam) {
     return *std::max_element(foam.begin(), foam.end());
   };
-  CHECK(most(foam_of({x, together, share, 0.1})) == 0);
-  const auto broken = foam_of({x, meeting, share, 0.1});
+  const LiquidNeighbours near(x, 0.1);
+  CHECK(most(foam_of(near, together, share)) == 0);
+  const auto broken = foam_of(near, meeting, share);
   CHECK(broken[size_t(9 * 36 + 15)] > 0.2f);  // at the seam
   CHECK(broken[15] == 0);                     // at an end
-  CHECK(most(foam_of({x, meeting, inside, 0.1})) == 0);
+  CHECK(most(foam_of(near, meeting, inside)) == 0);
   const std::vector<float> alone(x.size(), 0.05f);
-  CHECK(foam_of({x, together, alone, 0.1})[0] == 1);
-  CHECK(foam_of({{}, {}, {}, 0.1}).empty());
+  CHECK(foam_of(near, together, alone)[0] == 1);
+  CHECK(foam_of(LiquidNeighbours({}, 0.1), {}, {}).empty());
 }
 
 TEST_CASE("puffs are dense in the middle and gone at the rim of their pictures") {
@@ -269,7 +271,7 @@ TEST_CASE(
     for (const Quality q : {Quality::draft, Quality::standard, Quality::high}) {
       scene.quality = q;
       auto report = (*renderer)->render(scene, 320, 180);
-      REQUIRE_MESSAGE(report.ok(), (report.ok() ? "" : report.error().text()));
+      REQUIRE_MESSAGE(report.ok(), test::why_not(report));
       CHECK(report->draws.hash != hash);
       hash = report->draws.hash;
       CHECK((*renderer)->render(scene, 320, 180)->draws.hash == hash);

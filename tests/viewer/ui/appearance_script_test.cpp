@@ -4,6 +4,7 @@
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/interact/key_file.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <doctest/doctest.h>

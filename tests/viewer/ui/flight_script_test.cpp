@@ -1,6 +1,7 @@
 // Cameras that fly along keys, in the window and alone; recording to a video. References: the keys
 // themselves, straight lines and central differences; a program that stands in for ffmpeg and
 // keeps what it is given.
+#include "tests/support/why_not.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/app/scenes/camera_path.hpp"
 #include "viewer/capture/video_pipe.hpp"
@@ -129,7 +130,7 @@ TEST_CASE("a video gets every picture once, in order, and appears whole") {
   const FakeFfmpeg program(keeps);
   const auto file = program.folder / "out/a.mp4";
   auto video = VideoPipe::start(file, 3, 2, {30, 1});
-  REQUIRE_MESSAGE(video.ok(), video.error().text());
+  REQUIRE_MESSAGE(video.ok(), test::why_not(video));
   std::string expected;
   for (int k = 0; k < 50; ++k) {
     Image image{3, 2, 3, std::vector<uint8_t>(18)};

@@ -2,9 +2,11 @@
 // References: free fall in closed form; the worlds of the shipped lessons against the numbers that
 // their authors computed.
 #include "engine/scene/catalogue.hpp"
+#include "tests/support/why_not.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/app/scenes/lesson_check.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <doctest/doctest.h>
@@ -150,7 +152,7 @@ TEST_CASE("the world gives the answers of every lesson that comes with Tumble") 
     request.scene = entry.name;
     request.threads = 1;
     const auto checks = check_lesson(request);
-    REQUIRE_MESSAGE(checks.ok(), checks.error().text());
+    REQUIRE_MESSAGE(checks.ok(), test::why_not(checks));
     CHECK(!checks->empty());
     for (const SceneLesson::Check& c : *checks) {
       INFO("page ", c.step + 1, ": ", c.ask, " answer ", c.answer.value_or(-1), " measured ",

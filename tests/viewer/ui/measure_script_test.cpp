@@ -4,6 +4,8 @@
 #include "tests/viewer/ui/session_rig.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 using namespace tumble;

@@ -7,6 +7,7 @@
 #include "viewer/ui/shell.hpp"
 #include "viewer/ui/widgets.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 
 #include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"
+#include "tests/support/why_not.hpp"
 
 #include <doctest/doctest.h>
 
@@ -82,7 +83,7 @@ TEST_CASE("a part that loses a name is described anew, and can be changed afterw
   }
   // The file has lost the names alone.
   const auto saved = save_edits(scene_text, "x.json", *edits);
-  REQUIRE_MESSAGE(saved.ok(), saved.error().text());
+  REQUIRE_MESSAGE(saved.ok(), test::why_not(saved));
   CHECK(saved->text.find("\"density\": \"= 2 * size\"") != std::string::npos);
   CHECK(saved->text.find("\"bodies\": [\"box\"]") != std::string::npos);
   CHECK(saved->text.find("\"ball\"") == std::string::npos);

@@ -2,6 +2,7 @@
 #include "tests/support/ring_mesh.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/test_world.hpp"
+#include "tests/support/why_not.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/open_scene.hpp"
 #include "viewer/render/null/null_device.hpp"
@@ -79,7 +80,7 @@ struct Rig {
       return small_scene(name);
     };
     auto made = Application::create(device, std::move(options), small_scene(scene));
-    REQUIRE_MESSAGE(made.ok(), made.error().text());
+    REQUIRE_MESSAGE(made.ok(), test::why_not(made));
     app = std::move(*made);
   }
 
@@ -87,14 +88,14 @@ struct Rig {
   std::filesystem::path unsaved() const { return folder.path() / "unsaved"; }
   void frame(const std::vector<InputEvent>& events = {}) {
     const Status s = app->frame(events, 1.0 / 60, picture);
-    REQUIRE_MESSAGE(s.ok(), s.error().text());
+    REQUIRE_MESSAGE(s.ok(), test::why_not(s));
   }
   void play(std::string_view text) {
     auto script = ScriptedInput::parse(text);
-    REQUIRE_MESSAGE(script.ok(), script.error().text());
+    REQUIRE_MESSAGE(script.ok(), test::why_not(script));
     while (!script->done()) {
       auto events = script->next([&](std::string_view place) { return app->locate(place); });
-      REQUIRE_MESSAGE(events.ok(), events.error().text());
+      REQUIRE_MESSAGE(events.ok(), test::why_not(events));
       frame(*events);
     }
     frame();

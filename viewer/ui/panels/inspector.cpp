@@ -57,10 +57,10 @@ void draw_shapes(PanelContext& context, const BodyInfo& info) {
         fmt::format("friction {:.3g}   restitution {:.3g}   {:.5g} kg/m³", part.material.friction,
                     part.material.restitution, part.material.density),
         palette::faint);
-    if (part.material.rolling_friction > 0 || part.material.torsional_friction > 0)
+    if (part.material.rolling_friction || part.material.torsional_friction)
       small_text(context,
                  fmt::format("against rolling {:.3g} m   against spinning {:.3g} m",
-                             part.material.rolling_friction, part.material.torsional_friction),
+                             part.material.rolling_arm(), part.material.torsional_arm()),
                  palette::faint);
     ImGui::Unindent(10);
   }

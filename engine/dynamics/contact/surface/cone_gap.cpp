@@ -3,6 +3,7 @@
 #include "engine/dynamics/contact/surface/support_side.hpp"
 #include "engine/dynamics/contact/surface/tolerances.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {

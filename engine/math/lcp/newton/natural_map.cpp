@@ -2,6 +2,8 @@
 
 #include "engine/math/lcp/cone.hpp"
 
+#include <algorithm>
+
 namespace tumble::lcp {
 
 Triple natural_value(const ConeUnit& unit, const Triple& z, const Triple& w) {

@@ -1,7 +1,9 @@
 #include "engine/math/lcp/pivoting/block_start.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/tolerances.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble::lcp {
@@ -20,25 +22,43 @@ void find_wrong(const PivotState& s, std::vector<int>& indices) {
     if (s.wrong(i) > s.tolerance()) indices.push_back(i);
 }
 
+// What the state is asked for, paid for: a triangular solution for each unknown that is clamped, an
+// update of the factor for each that is freed, or all of it anew where that is less.
+
+bool pay_and_clamp(PivotState& s, int i) {
+  const size_t m = s.members().size();
+  charge_work(m + 1, m / 2 + 1);
+  return s.enter(i, tolerances::least_start_pivot);
+}
+void pay_and_free(PivotState& s, const std::vector<int>& positions) {
+  const size_t m = s.members().size();
+  charge_work(m, m, std::min(positions.size(), m / 6 + 1));
+  s.leave_many(positions);
+}
+void pay_and_solve(PivotState& s) {
+  charge_work(size_t(s.n), 2 * s.members().size() + 1);
+  s.solve();
+}
+
 }  // namespace
 
 void restore_bounds(PivotState& s) {
   std::vector<int> out;
   for (;;) {
     find_beyond(s, s.tolerance(), out);
-    if (out.empty()) break;
-    s.leave_many(out);
-    s.solve();
+    if (out.empty() || stop_requested()) break;
+    pay_and_free(s, out);
+    pay_and_solve(s);
   }
 }
 
 void block_start(PivotState& s) {
-  for (int i = 0; i < s.n; ++i)
-    if (s.role[size_t(i)] == Role::resting) s.enter(i, tolerances::least_start_pivot);
-  s.solve();
+  for (int i = 0; i < s.n && !stop_requested(); ++i)
+    if (s.role[size_t(i)] == Role::resting) pay_and_clamp(s, i);
+  pay_and_solve(s);
   std::vector<int> out, in;
   size_t best = size_t(s.n) + 1;
-  for (int allowance = 3; allowance > 0;) {
+  for (int allowance = 3; allowance > 0 && !stop_requested();) {
     find_beyond(s, s.tolerance(), out);
     find_wrong(s, in);
     const size_t count = out.size() + in.size();
@@ -49,11 +69,11 @@ void block_start(PivotState& s) {
     } else {
       --allowance;
     }
-    s.leave_many(out);
+    pay_and_free(s, out);
     bool changed = !out.empty();
-    for (const int i : in) changed |= s.enter(i, tolerances::least_start_pivot);
+    for (size_t k = 0; k < in.size() && !stop_requested(); ++k) changed |= pay_and_clamp(s, in[k]);
     if (!changed) break;
-    s.solve();
+    pay_and_solve(s);
   }
   restore_bounds(s);
 }

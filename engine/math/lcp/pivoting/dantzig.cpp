@@ -1,5 +1,6 @@
 #include "engine/math/lcp/pivoting/dantzig.hpp"
 
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/pivoting/block_start.hpp"
 #include "engine/math/lcp/pivoting/pivot_driver.hpp"
 #include "engine/math/lcp/tolerances.hpp"
@@ -13,6 +14,8 @@ namespace {
 /// Pivoting on one problem; z in the units of the rows.
 LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out,
                 PivotTrace* trace = nullptr) {
+  // A copy of the matrix, and room for its factor.
+  charge_work(size_t(scaled.n), 2 * size_t(scaled.n));
   PivotState state(scaled, {});
   if (!trace) block_start(state);
   PivotDriver driver(state, std::max(1, limit - out.report.iterations), trace);
@@ -32,7 +35,7 @@ bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit,
   for (int i = 0; i < scaled.n; ++i) near.A[size_t(i) * size_t(scaled.n) + size_t(i)] += weight;
   LcpSolution next = out;
   double best = std::numeric_limits<double>::infinity();
-  for (int idle = 0; idle < 4;) {
+  for (int idle = 0; idle < 4 && !stop_requested();) {
     if (pivot(near, limit, next) != LcpStatus::solved) break;
     const double residual = validate(problem, next.z).worst();
     idle = residual < 0.5 * best ? 0 : idle + 1;
