@@ -149,6 +149,61 @@ class KnownPair {
 
 }  // namespace
 
+TEST_CASE("bodies are pairs where proxies of theirs overlap, in order and once") {
+  Random r(65);
+  for (int draw = 0; draw < scaled_count(60, 8); ++draw) {
+    RigidWorld w;
+    for (int i = 0; i < 30; ++i) {
+      RigidBody b = random_compound(r, 1 + int(r.uniform(0, 6)));
+      const double kind = r.uniform(0, 1);
+      if (kind < 0.4) b.type = kind < 0.2 ? BodyType::fixed : BodyType::kinematic;
+      b.pose = {vector_in(r, 3), rotation_in(r)};
+      if (b.type != BodyType::fixed) b.v = vector_in(r, 1);
+      w.bodies.push_back(b);
+    }
+    REQUIRE(w.tick().find_pairs(w.h).ok());
+    std::vector<ProxyPair> expected;
+    const auto meet = [&w](uint32_t a, uint32_t b) {
+      for (uint32_t i = w.proxies.first[a]; i < w.proxies.first[a + 1]; ++i)
+        for (uint32_t j = w.proxies.first[b]; j < w.proxies.first[b + 1]; ++j) {
+          const BroadPhaseProxy &p = w.proxies.proxies[i], &q = w.proxies.proxies[j];
+          if ((p.moving || q.moving) && p.bounds.overlaps(q.bounds)) return true;
+        }
+      return false;
+    };
+    for (uint32_t a = 0; a < w.bodies.size(); ++a) {
+      CHECK(w.proxies.proxies_of(a) ==
+            (w.bodies[a].dynamic() ? 1 : uint32_t(w.bodies[a].shapes.size())));
+      for (uint32_t b = a + 1; b < w.bodies.size(); ++b)
+        if (meet(a, b)) expected.push_back({w.proxies.first[a], w.proxies.first[b]});
+    }
+    CHECK(expected.size() > 30);
+    CHECK(w.pairs == expected);
+  }
+}
+
+TEST_CASE("what a hollow body holds is near it only where it is near a wall") {
+  RigidWorld w;
+  BodyDef room;
+  room.type = BodyType::kinematic;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 half = Vec3::Constant(5);
+      half[axis] = 0.5;
+      BodyDef wall = body(box(half.x(), half.y(), half.z()), Vec3::Zero());
+      wall.shapes[0].pose.x[axis] = 5.5 * side;
+      room.shapes.push_back(wall.shapes[0]);
+    }
+  const uint32_t holder = w.add(room);
+  w.bodies[holder].omega = {0, 0, 0.5};
+  w.add(body(box(0.5, 0.5, 0.5), Vec3::Zero()));
+  const uint32_t cornered = w.add(body(box(0.5, 0.5, 0.5), {4.5, 4.5, 4.5}));
+  REQUIRE(w.tick().find_pairs(w.h).ok());
+  REQUIRE(w.pairs.size() == 1);
+  CHECK(w.proxies.refs[w.pairs[0].a].body == holder);
+  CHECK(w.proxies.refs[w.pairs[0].b].body == cornered);
+}
+
 TEST_CASE("what is known of two bodies has the gaps of all pairs of shapes, asked seldom") {
   Random r(63);
   int asked_one_by_one = 0, touching = 0, apart = 0;

@@ -49,10 +49,8 @@ struct Tick {
   double h, margin;
 };
 
-/// Puts the proxy of a body, if it has shapes; whether it is a dynamic body with a triangle mesh.
-bool put_proxy(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
-               ShapeRef* ref) {
-  if (body.shapes.empty()) return false;
+/// Puts the proxies of a body to their place; whether it is a dynamic body with a triangle mesh.
+bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, ProxySet& out) {
   const bool moving = is_active(body);
   const double h = tick.h;
   Vec3 step = Vec3::Zero();
@@ -63,17 +61,28 @@ bool put_proxy(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhas
     }
   }
   const double wide = contact_margin(body, tick.margin);
-  ShapeTurning turning{Vec3::Zero(), 0};
-  if (moving && body.tree) turning.reach = whole_turning(body, h);
-  if (moving && !body.tree) turning = shape_turning(body, body.shapes[0], h);
-  Aabb bounds = whole_bounds(body, body.pose);
-  const Vec3 way = step + h * turning.velocity;
-  bounds.min += way.cwiseMin(Vec3::Zero());
-  bounds.max += way.cwiseMax(Vec3::Zero());
-  *out = {bounds.inflated(wide + turning.reach), moving};
-  *ref = {slot, 0};
+  const uint32_t first = out.first[slot], count = out.proxies_of(slot);
+  const bool whole = count < body.shapes.size();
+  for (uint32_t s = 0; s < count; ++s) {
+    ShapeTurning turning{Vec3::Zero(), 0};
+    if (moving && whole) turning.reach = whole_turning(body, h);
+    if (moving && !whole) turning = shape_turning(body, body.shapes[s], h);
+    Aabb bounds = whole ? whole_bounds(body, body.pose)
+                        : body.shapes[s].shape->bounds(body.pose * body.shapes[s].pose);
+    const Vec3 way = step + h * turning.velocity;
+    bounds.min += way.cwiseMin(Vec3::Zero());
+    bounds.max += way.cwiseMax(Vec3::Zero());
+    out.proxies[first + s] = {bounds.inflated(wide + turning.reach), moving};
+    out.refs[first + s] = {slot, s};
+  }
   return body.dynamic() &&
          std::ranges::any_of(body.shapes, [](const BodyShape& s) { return s.shape->is_mesh(); });
+}
+
+/// How many proxies a body has.
+uint32_t proxies_for(const RigidBody& body) {
+  const auto shapes = uint32_t(body.shapes.size());
+  return body.dynamic() ? std::min(shapes, 1u) : shapes;
 }
 
 /// Whether a body has several, told by where proxies begin.
@@ -122,7 +131,7 @@ void number_shape_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew
 
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew) {
-  number_proxies(bodies, out, crew, [](const RigidBody& b) { return uint32_t(!b.shapes.empty()); });
+  number_proxies(bodies, out, crew, &proxies_for);
   std::array<bool, chunk_count> meshes{};
   for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     constexpr size_t ahead = tolerances::bodies_ahead;
@@ -130,9 +139,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<sizeof(RigidBody)>(bodies, i, 2 * ahead);
       if (i + ahead < last) prefetch<sizeof(BodyShape)>(bodies[i + ahead].shapes.data());
-      const uint32_t at = out.first[i];
-      mesh |= put_proxy(bodies[i], uint32_t(i), {gravity, h, margin}, out.proxies.data() + at,
-                        out.refs.data() + at);
+      mesh |= put_proxies(bodies[i], uint32_t(i), {gravity, h, margin}, out);
     }
     meshes[chunk] = mesh;
   });
@@ -150,9 +157,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
       for (size_t k = first; k < last; ++k) {
         prefetch<sizeof(RigidBody)>(&bodies[slots[std::min(k + 2 * ahead, last - 1)]]);
         prefetch<sizeof(BodyShape)>(bodies[slots[std::min(k + ahead, last - 1)]].shapes.data());
-        const uint32_t at = out.first[slots[k]];
-        put_proxy(bodies[slots[k]], slots[k], {gravity, h, margin}, out.proxies.data() + at,
-                  out.refs.data() + at);
+        put_proxies(bodies[slots[k]], slots[k], {gravity, h, margin}, out);
       }
     });
   }
@@ -160,6 +165,20 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
   append_proxies_of(out, roster.settled(), out.news.settled);
   ++out.news.number;
   out.news.all = false;
+}
+
+void join_by_body(const ProxySet& proxies, std::vector<ProxyPair>& pairs) {
+  if (proxies.owners.empty()) return;
+  const auto first_of = [&](uint32_t proxy) { return proxies.first[proxies.owners[proxy]]; };
+  for (ProxyPair& pair : pairs) pair = {first_of(pair.a), first_of(pair.b)};
+  // A body's proxies follow each other: what its own pairs have to be sorted by is the other body.
+  for (auto begin = pairs.begin(); begin != pairs.end();) {
+    const auto end = std::find_if(begin, pairs.end(),
+                                  [begin](const ProxyPair& pair) { return pair.a != begin->a; });
+    if (!std::is_sorted(begin, end)) std::sort(begin, end);
+    begin = end;
+  }
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs) {

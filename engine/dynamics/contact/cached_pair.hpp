@@ -59,8 +59,8 @@ inline void take_materials(Contact& contact, const PairSide& a, const PairSide& 
   const auto arm = [narrow](double of_a, double of_b) {
     return narrow ? std::sqrt(of_a * of_b) : 0;
   };
-  contact.rolling_friction = arm(a.rolling_friction, b.rolling_friction);
-  contact.torsional_friction = arm(a.torsional_friction, b.torsional_friction);
+  contact.rolling_friction = arm(on_a.rolling_friction, on_b.rolling_friction);
+  contact.torsional_friction = arm(on_a.torsional_friction, on_b.torsional_friction);
   if (!contact.resists_turning()) contact.turning_torque.setZero();
   contact.surface_velocity = on_a.belt - on_b.belt;
 }

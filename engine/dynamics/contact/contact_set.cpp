@@ -332,7 +332,7 @@ bool ContactSet::merge_roused() {
   return true;
 }
 
-/// Of all proxies, or of those that pairs name where these are few.
+/// Of all bodies, at their first proxies, or of those that pairs name where these are few.
 void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
                             double margin, Crew& crew) {
@@ -347,6 +347,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
   for_chunks(&crew, few ? paired_.size() : sides_.size(), [&](size_t, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const size_t i = few ? paired_[k] : k;
+      if (proxies.refs[i].shape > 0) continue;
       sides_[i] = body_side(bodies, proxies.refs[i].body, {gravity, h, margin});
     }
   });

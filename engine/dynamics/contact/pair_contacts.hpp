@@ -15,7 +15,7 @@ struct PairHistory {
 /// Finds the contacts of single pairs of bodies, with the forces of the points that they continue.
 class PairContacts {
  public:
-  std::span<const PairSide> sides;  ///< by proxy
+  std::span<const PairSide> sides;  ///< by first proxy of a body
   std::span<const RigidBody> bodies;
   SideTick tick;
   NarrowPhase narrow_phase = &collide;

@@ -34,8 +34,9 @@ Status RealtimeTick::find_pairs(double part) {
   update_proxies(bodies, roster, gravity, part, settings.speculative_margin, proxies, &crew);
   listener.bounds_known();
   broad_phase.use_threads(&crew);
-  broad_phase.set_owners({});  // a proxy for each body
+  broad_phase.set_owners(proxies.owners);
   broad_phase.find_pairs(proxies.proxies, proxies.news, pairs);
+  join_by_body(proxies, pairs);
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
