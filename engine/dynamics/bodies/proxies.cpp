@@ -167,18 +167,35 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
   out.news.all = false;
 }
 
+namespace {
+
+using PairPlace = std::vector<ProxyPair>::iterator;
+
+/// Sorts the pairs of a body and leaves each once; gives their new end.
+PairPlace sort_run(PairPlace begin, PairPlace end) {
+  if (std::is_sorted(begin, end)) return end;
+  std::sort(begin, end);
+  return std::unique(begin, end);
+}
+
+}  // namespace
+
 void join_by_body(const ProxySet& proxies, std::vector<ProxyPair>& pairs) {
   if (proxies.owners.empty()) return;
-  const auto first_of = [&](uint32_t proxy) { return proxies.first[proxies.owners[proxy]]; };
-  for (ProxyPair& pair : pairs) pair = {first_of(pair.a), first_of(pair.b)};
-  // A body's proxies follow each other: what its own pairs have to be sorted by is the other body.
-  for (auto begin = pairs.begin(); begin != pairs.end();) {
-    const auto end = std::find_if(begin, pairs.end(),
-                                  [begin](const ProxyPair& pair) { return pair.a != begin->a; });
-    if (!std::is_sorted(begin, end)) std::sort(begin, end);
-    begin = end;
+  const uint32_t *first = proxies.first.data(), *owners = proxies.owners.data();
+  auto run = pairs.begin(), end = run;  // of pairs of one body, joined so far
+  bool several = false;
+  for (const ProxyPair& pair : pairs) {
+    const ProxyPair joined{first[owners[pair.a]], first[owners[pair.b]]};
+    if (end != run && joined.a != run->a) {
+      if (several) end = sort_run(run, end);
+      run = end;
+      several = false;
+    }
+    several = several || joined.a != pair.a;
+    if (end == run || !(end[-1] == joined)) *end++ = joined;
   }
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  pairs.erase(sort_run(run, end), pairs.end());
 }
 
 std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs) {

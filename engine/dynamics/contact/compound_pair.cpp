@@ -127,6 +127,11 @@ bool CompoundPair::still_seen(const CachedPair& piece) {
 
 /// Whether the contacts may be carried along. All shapes that touch were looked at together.
 bool CompoundPair::contacts_hold() {
+  if (!hold_) hold_ = find_whether_they_hold();
+  return *hold_;
+}
+
+bool CompoundPair::find_whether_they_hold() {
   const auto touching = std::ranges::find_if(history_.pieces, &CachedPair::touch);
   if (history_.contacts.empty() || touching == history_.pieces.end())
     return history_.contacts.empty() && touching == history_.pieces.end();
@@ -217,6 +222,11 @@ bool CompoundPair::look_at_those_apart(std::span<CachedPair> pieces) {
 }
 
 bool CompoundPair::look(Sights& sights) {
+  if (knows()) {
+    sights.seen.push_back(*history_.seen);
+    sights.seen.insert(sights.seen.end(), history_.pieces.begin(), history_.pieces.end());
+    return true;
+  }
   Memory& m = memory();
   m.found.manifolds.clear();
   m.found.shapes.clear();

@@ -17,13 +17,13 @@ class CompoundPair {
   CompoundPair(const PairContacts& finder, const PairSide& a, const PairSide& b,
                const PairHistory& history);
 
-  /// Whether all that is known still holds.
-  bool knows();
   /// Has the narrow phase look where it must. Whether contacts are carried along; else appends the
   /// manifolds. Appends what is known now.
   bool look(Sights& sights);
 
  private:
+  /// Whether all that is known still holds.
+  bool knows();
   const PairSide& side_a(const CachedPair& piece);
   const PairSide& side_b(const CachedPair& piece);
   const PairSide& side_of(const PairSide& whole, uint32_t shape, uint32_t& named,
@@ -40,6 +40,7 @@ class CompoundPair {
   double moved(const CachedPair& piece);
   bool still_seen(const CachedPair& piece);
   bool contacts_hold();
+  bool find_whether_they_hold();
   void renew_list(Sights& sights);
   void renew(CachedPair& look, double moved) const;
   bool look_at_those_apart(std::span<CachedPair> pieces);
@@ -51,6 +52,7 @@ class CompoundPair {
   Pose now_;                           ///< relative_pose
   double reach_;                       ///< PairContacts::reach of the bodies [m]
   double slack_ = 0;                   ///< what is asked for beyond it, good for some motion [m]
+  std::optional<bool> hold_;           ///< contacts_hold, once asked for
   std::optional<Motion> motion_;       ///< the last that was asked for
   ShapesOfPair named_;                 ///< the shapes that were asked for last
   double asked_ = 0;                   ///< greatest margin that shapes were looked at with [m]

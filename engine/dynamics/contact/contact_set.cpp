@@ -217,7 +217,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
     if (finder.knows(pair, before)) {
       source.look = before.seen;
       source.carried = true;
-      source.looks = 1 + uint32_t(before.pieces.size());  // which follow it
+      source.looks = 1;
     } else {
       const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
       source.carried = finder.look(pair, before, out.sights);
@@ -250,8 +250,8 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
       prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(&contacts[at + ahead]);
     const auto place = contacts.subspan(at, source.contacts);
     at += source.contacts;
+    chunk.stats.carried += source.carried;
     if (source.look) {
-      ++chunk.stats.carried;
       seen = std::copy_n(source.look, source.looks, seen);
     } else {
       seen = std::copy_n(look, source.looks, seen);

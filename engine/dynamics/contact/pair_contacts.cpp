@@ -99,10 +99,11 @@ class PointMatcher {
 /// The places of manifolds in the order of their shapes and parts, those of one part as they came.
 void order_by_part(std::span<const Manifold> manifolds, std::span<const ShapesOfPair> shapes,
                    std::vector<uint32_t>& order) {
-  order.resize(manifolds.size());
-  std::iota(order.begin(), order.end(), 0u);
+  if (order.size() < manifolds.size()) order.resize(manifolds.size());
+  const auto end = order.begin() + std::ptrdiff_t(manifolds.size());
+  std::iota(order.begin(), end, 0u);
   if (manifolds.size() < 2) return;
-  std::sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+  std::sort(order.begin(), end, [&](uint32_t x, uint32_t y) {
     return std::tie(shapes[x], manifolds[x].part, x) < std::tie(shapes[y], manifolds[y].part, y);
   });
 }
@@ -144,6 +145,7 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
 
 std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
                                            std::vector<uint64_t>& memory) {
+  if (contacts.empty()) return {};
   memory.resize(std::max(memory.size(), 4 * contacts.size()));
   size_t count = 0;
   for (const Contact& c : contacts) {
@@ -164,7 +166,7 @@ double PairContacts::reach(const PairSide& a, const PairSide& b) const {
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  if (in_pieces(a, b)) return CompoundPair(*this, a, b, history).knows();
+  if (in_pieces(a, b)) return false;  // what look() finds out
   const bool apart = history.contacts.empty();
   if (!apart && !(a.planes && b.planes)) return false;
   const double reach_now = reach(a, b);
@@ -184,6 +186,7 @@ PairContacts::Look PairContacts::look_at_shapes(const PairSide& a, const PairSid
   query.apart = &apart;
   const auto first = std::ptrdiff_t(out.size());
   narrow_phase(*a.shape, a.shape_pose, *b.shape, b.shape_pose, query, out);
+  if (std::ptrdiff_t(out.size()) == first) return {std::max(query.margin, apart), true};
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [](const Manifold& m) { return m.count <= 0; }),
             out.end());

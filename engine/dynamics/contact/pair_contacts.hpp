@@ -22,7 +22,8 @@ class PairContacts {
   const HierarchyKind* hierarchy = nullptr;
 
   /// Whether all that is known may be carried along (cached_pair.hpp): the bodies hardly moved
-  /// against each other since the narrow phase looked.
+  /// against each other since the narrow phase looked. Of bodies of several shapes look() finds
+  /// out.
   bool knows(const ProxyPair& pair, const PairHistory& history) const;
   /// Has the narrow phase look: appends what it sees of the pair. True where the contacts may be
   /// carried along all the same, and no manifolds are appended.
