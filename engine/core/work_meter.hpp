@@ -18,6 +18,7 @@ class WorkMeter {
   void charge(uint64_t units) noexcept { spent_ += units; }
   uint64_t spent() const noexcept { return spent_; }
   bool exhausted() const noexcept { return spent_ > allowed_; }
+  bool allows(uint64_t more) const noexcept { return !exhausted() && more <= allowed_ - spent_; }
 
  private:
   uint64_t allowed_, spent_ = 0;
@@ -40,6 +41,7 @@ class Metered {
     meter_.charge(units);
     if (meter_.exhausted() || (outer_ && outer_->requested())) over_.request();
   }
+  const WorkMeter& meter() const noexcept { return meter_; }
 
  private:
   WorkMeter& meter_;
@@ -75,6 +77,15 @@ inline void charge_work(uint64_t units) noexcept {
 /// The same for a product of counts.
 inline void charge_work(size_t a, size_t b, size_t c = 1) noexcept {
   charge_work(uint64_t(a) * uint64_t(b) * uint64_t(c));
+}
+
+/// Whether work of about so many units is to be begun: not where the meter does not allow as much,
+/// which is then charged with all of it, as it would only be broken off in the middle, nor after a
+/// request to stop.
+inline bool may_begin_work(uint64_t units) noexcept {
+  Metered* present = detail::present_meter;
+  if (present) present->charge(present->meter().allows(units) ? 0 : units);
+  return !stop_requested();
 }
 
 }  // namespace tumble

@@ -56,3 +56,31 @@ TEST_CASE("a request to stop reaches metered work with its next charge") {
   CHECK(stop_requested());
   CHECK_FALSE(inner.exhausted());
 }
+
+TEST_CASE("work that a meter does not allow is not begun, and costs as much as if it had been") {
+  WorkMeter meter(100);
+  {
+    const Metered counted(meter);
+    charge_work(40);
+    CHECK(may_begin_work(60));
+    CHECK(meter.spent() == 40);
+    CHECK_FALSE(may_begin_work(61));
+    CHECK(meter.spent() == 101);
+    CHECK_FALSE(may_begin_work(1));
+  }
+  WorkMeter any;
+  const Metered counted(any);
+  CHECK(may_begin_work(~uint64_t{0}));
+}
+
+TEST_CASE("work is not begun after a request to stop, metered or not") {
+  StopFlag flag;
+  const Stoppable scope(&flag);
+  CHECK(may_begin_work(1));
+  WorkMeter meter;
+  const Metered counted(meter);
+  CHECK(may_begin_work(1));
+  flag.request();
+  CHECK_FALSE(may_begin_work(1));
+  CHECK(meter.spent() == 0);
+}

@@ -135,8 +135,11 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
     });
     return;
   }
-  const MaterialDescription before = describe_material(part.material);
-  MaterialDescription now = before;
+  MaterialDescription now = describe_material(part.material);
+  // Shown, and so to be changed, also where the material does not give them.
+  now.rolling_friction = part.material.rolling_arm();
+  now.torsional_friction = part.material.torsional_arm();
+  const MaterialDescription before = now;
   MaterialDescription::parameters(widgets, now);
   if (!widgets.changed) return;
   ask([index, before, now](BodyDef& d) {

@@ -1,6 +1,5 @@
 #include "engine/scene/build/describe_body.hpp"
 
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -16,13 +15,6 @@ void take_over(const T& before, const T& now, U& value) {
 template <class T, class U>
 void take_over(const std::optional<T>& before, const std::optional<T>& now, U& value) {
   if (now && before != now) value = U(*now);
-}
-
-/// Where the definition itself may leave the value out.
-template <class T, class U>
-void take_over(const std::optional<T>& before, const std::optional<T>& now,
-               std::optional<U>& value) {
-  if (before != now) value = now ? std::optional<U>(U(*now)) : std::nullopt;
 }
 
 /// The double that people mean by this float: 0.6 for 0.6f.

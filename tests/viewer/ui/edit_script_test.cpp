@@ -177,6 +177,11 @@ TEST_CASE("values of a body are changed in the panel, with one deed for each pul
   rig.play("click inspector.group.1\nwait 2\nclick inspector.shape.0\nwait 2");
   rig.play("drag inspector.shape.0.friction 40 0\nwait 2");
   CHECK(def().shapes[0].material.friction > 0.5);
+  // What the material does not give is there to be changed as well, alone.
+  CHECK_FALSE(def().shapes[0].material.rolling_friction);
+  rig.play("drag inspector.shape.0.rolling_friction 40 0\nwait 2");
+  CHECK(def().shapes[0].material.rolling_friction.value_or(0) > default_turning_friction);
+  CHECK_FALSE(def().shapes[0].material.torsional_friction);
   CHECK(rig.app->session().world().body(rig.app->selected())->mass == heavier);
   // Typed.
   rig.play("click inspector.shape.0\nwait 2\nclick inspector.group.1\nwait 2");
@@ -185,7 +190,8 @@ TEST_CASE("values of a body are changed in the panel, with one deed for each pul
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(says(rig, "Taken back: Change gravity scale of box"));
   CHECK(def().gravity_scale == 1);
-  rig.play("key Ctrl+Z\nkey Ctrl+Z\nwait 2");
+  rig.play("key Ctrl+Z\nkey Ctrl+Z\nkey Ctrl+Z\nwait 2");
+  CHECK_FALSE(def().shapes[0].material.rolling_friction);
   CHECK(rig.app->session().world().body(rig.app->selected())->mass == mass);
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(says(rig, "nothing to take back"));

@@ -1,6 +1,7 @@
 #include "engine/math/lcp/cones/solve_cones.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/blocks/block_system.hpp"
 #include "engine/math/lcp/cones/sliding_cones.hpp"
@@ -140,7 +141,12 @@ class ConeStages {
 };
 
 void ConeStages::attempt(const ConeStage& stage) {
-  if (stage.needs_matrix) ask_matrix();
+  if (stage.needs_matrix) {
+    // What a factor of it takes.
+    const auto n = uint64_t(task_.problem.size());
+    if (!may_begin_work(n * n * n / 6)) return;
+    ask_matrix();
+  }
   Result<LcpSolution> now = stage.solve(task_);
   LcpReport report;
   report.status = LcpStatus::numeric;  // where a stage refuses the problem
@@ -203,6 +209,8 @@ Result<LcpSolution> solve_without_laterals(const LcpProblem& problem) {
   for (Eigen::Index i = 0; i < problem.size(); ++i)
     if (!lateral[size_t(i)]) kept.push_back(i);
   LcpProblem plain;
+  charge_work(kept.size(), kept.size());
+  if (stop_requested()) return stopped_error();
   plain.A = problem.A(kept, kept);
   plain.b = problem.b(kept), plain.lower = problem.lower(kept), plain.upper = problem.upper(kept);
   Result<LcpSolution> out = dantzig(plain);
