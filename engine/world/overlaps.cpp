@@ -18,7 +18,6 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   update_proxies(bodies, Vec3::Zero(), 0, 0, proxies);
   std::vector<ProxyPair> pairs;
   all_broad_phases().back().make()->find_pairs(proxies.proxies, pairs);  // any finds the same
-  join_by_body(proxies, pairs);
   PairFilter apart;
   s.joints.find_apart(s.bodies.bodies, apart);
   apart.apply(proxies, pairs);

@@ -41,7 +41,7 @@ struct Found {
 const SideTick tick{Vec3::Zero(), 1.0 / 60, 0.02};
 
 std::array<PairSide, 2> sides_of(std::span<const RigidBody> bodies) {
-  const auto side = [&](uint32_t body) { return body_side(bodies, body, tick); };
+  const auto side = [&](uint32_t body) { return pair_side(bodies, {body, 0}, tick); };
   return {side(0), side(1)};
 }
 

@@ -3,6 +3,7 @@
 // support function in many directions; statics of what stands on legs.
 #include "engine/core/random.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
+#include "engine/dynamics/contact/compound_pair.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/dynamics/contact/shape_pairs.hpp"
 #include "engine/math/rotation.hpp"
@@ -107,20 +108,20 @@ class KnownPair {
   explicit KnownPair(std::span<const RigidBody> bodies) : bodies_(bodies) {}
 
   void update() {
-    const std::array<PairSide, 2> sides{body_side(bodies_, 0, tick_), body_side(bodies_, 1, tick_)};
+    const std::array<PairSide, 2> sides{pair_side(bodies_, {0, 0}, tick_),
+                                        pair_side(bodies_, {1, 0}, tick_)};
     const PairContacts finder{sides, bodies_, tick_, &counted};
-    PairHistory history{contacts, nullptr};
-    if (!seen_.empty()) history.seen = seen_.data(), history.pieces = std::span(seen_).subspan(1);
+    const PairHistory history{contacts, known_.seen.empty() ? nullptr : known_.seen.data(),
+                              known_.pieces};
     Sights sights;
-    const bool known = finder.knows({0, 1}, history);
-    if (known || finder.look({0, 1}, history, sights)) {
+    if (CompoundPair(finder, sides[0], sides[1], history).look(sights)) {
       for (Contact& c : contacts) carry_along(c, sides[0], sides[1]);
     } else {
       const std::vector<Contact> before = contacts;
       contacts.resize(sights.manifolds.size());
       finder.make({0, 1}, before, sights.manifolds, sights.shapes, contacts);
     }
-    if (!known) seen_ = sights.seen;
+    known_ = sights;
   }
   double least_gap() const {
     double least = std::numeric_limits<double>::infinity();
@@ -144,38 +145,37 @@ class KnownPair {
   }
   std::span<const RigidBody> bodies_;
   SideTick tick_{Vec3::Zero(), 1.0 / 60, 0.02};
-  std::vector<CachedPair> seen_;
+  Sights known_;
 };
 
 }  // namespace
 
-TEST_CASE("bodies are pairs where proxies of theirs overlap, in order and once") {
+TEST_CASE("a dynamic body has one proxy, a wall of another each: pairs are those that overlap") {
   Random r(65);
   for (int draw = 0; draw < scaled_count(60, 8); ++draw) {
     RigidWorld w;
     for (int i = 0; i < 30; ++i) {
       RigidBody b = random_compound(r, 1 + int(r.uniform(0, 6)));
       const double kind = r.uniform(0, 1);
-      if (kind < 0.4) b.type = kind < 0.2 ? BodyType::fixed : BodyType::kinematic;
+      if (kind < 0.4) {
+        b.type = kind < 0.2 ? BodyType::fixed : BodyType::kinematic;
+        b.tree = nullptr;
+      }
       b.pose = {vector_in(r, 3), rotation_in(r)};
       if (b.type != BodyType::fixed) b.v = vector_in(r, 1);
       w.bodies.push_back(b);
     }
     REQUIRE(w.tick().find_pairs(w.h).ok());
     std::vector<ProxyPair> expected;
-    const auto meet = [&w](uint32_t a, uint32_t b) {
-      for (uint32_t i = w.proxies.first[a]; i < w.proxies.first[a + 1]; ++i)
-        for (uint32_t j = w.proxies.first[b]; j < w.proxies.first[b + 1]; ++j) {
-          const BroadPhaseProxy &p = w.proxies.proxies[i], &q = w.proxies.proxies[j];
-          if ((p.moving || q.moving) && p.bounds.overlaps(q.bounds)) return true;
-        }
-      return false;
-    };
-    for (uint32_t a = 0; a < w.bodies.size(); ++a) {
-      CHECK(w.proxies.proxies_of(a) ==
-            (w.bodies[a].dynamic() ? 1 : uint32_t(w.bodies[a].shapes.size())));
-      for (uint32_t b = a + 1; b < w.bodies.size(); ++b)
-        if (meet(a, b)) expected.push_back({w.proxies.first[a], w.proxies.first[b]});
+    for (uint32_t i = 0; i < w.proxies.proxies.size(); ++i) {
+      const uint32_t a = w.proxies.refs[i].body;
+      const size_t shapes = w.bodies[a].shapes.size();
+      CHECK(w.proxies.proxies_of(a) == (w.bodies[a].dynamic() ? 1 : shapes));
+      for (uint32_t j = i + 1; j < w.proxies.proxies.size(); ++j) {
+        const BroadPhaseProxy &p = w.proxies.proxies[i], &q = w.proxies.proxies[j];
+        if (w.proxies.refs[j].body != a && (p.moving || q.moving) && p.bounds.overlaps(q.bounds))
+          expected.push_back({i, j});
+      }
     }
     CHECK(expected.size() > 30);
     CHECK(w.pairs == expected);
@@ -199,9 +199,11 @@ TEST_CASE("what a hollow body holds is near it only where it is near a wall") {
   w.add(body(box(0.5, 0.5, 0.5), Vec3::Zero()));
   const uint32_t cornered = w.add(body(box(0.5, 0.5, 0.5), {4.5, 4.5, 4.5}));
   REQUIRE(w.tick().find_pairs(w.h).ok());
-  REQUIRE(w.pairs.size() == 1);
-  CHECK(w.proxies.refs[w.pairs[0].a].body == holder);
-  CHECK(w.proxies.refs[w.pairs[0].b].body == cornered);
+  REQUIRE(w.pairs.size() == 3);
+  for (const ProxyPair& pair : w.pairs) {
+    CHECK(w.proxies.refs[pair.a].body == holder);
+    CHECK(w.proxies.refs[pair.b].body == cornered);
+  }
 }
 
 TEST_CASE("what is known of two bodies has the gaps of all pairs of shapes, asked seldom") {
@@ -277,7 +279,7 @@ TEST_CASE("pairs of shapes found by the trees hold all that are near, and few th
     b.pose = {a.pose.x + vector_in(r, 0.9), rotation_in(r)};
     const double reach = r.uniform(0, 0.1);
     std::vector<ShapesNear> pairs;
-    const double others = find_shape_pairs(a, b, reach, pairs);
+    const double others = find_shape_pairs(side_shapes(a, 0), side_shapes(b, 0), reach, pairs);
     CHECK(others >= reach);
     CHECK(std::ranges::is_sorted(pairs, {}, &ShapesNear::shapes));
     CHECK(std::ranges::adjacent_find(pairs, {}, &ShapesNear::shapes) == pairs.end());
@@ -390,5 +392,5 @@ TEST_CASE("shapes of other materials keep contacts of their own") {
   w.find_contacts();
   REQUIRE(w.contacts.contacts().size() == 2);
   for (const Contact& c : w.contacts.contacts())
-    CHECK(c.friction == doctest::Approx(c.key.shape_b == 2 ? 0.5 : std::sqrt(0.5)));
+    CHECK(c.friction == doctest::Approx(c.shapes.b == 2 ? 0.5 : std::sqrt(0.5)));
 }

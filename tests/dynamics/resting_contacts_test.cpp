@@ -20,7 +20,7 @@ constexpr uint32_t body_count = 24;
 Contact contact(uint32_t a, uint32_t b, uint64_t part, int count, double depth) {
   Contact c;
   static_cast<ContactHead&>(c) = {};
-  c.key = {std::min(a, b), std::max(a, b), 0, 0, part};
+  c.key = {std::min(a, b), 0, std::max(a, b), 0, part};
   c.count = count;
   for (int i = 0; i < count; ++i) {
     c.points[size_t(i)] = {};
@@ -110,8 +110,7 @@ struct Both {
       const uint32_t a = any(), b = any();
       if (a == b || (a % 3 == 0 && b % 3 == 0)) continue;
       if (r.below(3) == 0)
-        news.seen.push_back(
-            {{std::min(a, b), std::max(a, b), uint32_t(next_part++), 0, 0}, {}, 1, {}, false});
+        news.seen.push_back({{std::min(a, b), uint32_t(next_part++), std::max(a, b), 0, 0}, {}, 1});
       else
         news.contacts.push_back(contact(a, b, next_part++, int(r.below(5)), double(r.below(9))));
     }
@@ -148,11 +147,11 @@ struct Both {
     for (uint32_t body = 0; body < body_count; ++body)
       CHECK(resting.holds(body) == model.holds(body));
     ContactKnowledge all;
-    resting.for_piles([&](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
-      CHECK(std::ranges::is_sorted(contacts, {}, &Contact::key));
-      CHECK(std::ranges::is_sorted(seen, {}, &CachedPair::pair));
-      all.contacts.insert(all.contacts.end(), contacts.begin(), contacts.end());
-      all.seen.insert(all.seen.end(), seen.begin(), seen.end());
+    resting.for_piles([&](const ContactKnowledge& pile) {
+      CHECK(std::ranges::is_sorted(pile.contacts, {}, &Contact::key));
+      CHECK(std::ranges::is_sorted(pile.seen, {}, &CachedPair::pair));
+      CHECK(std::is_sorted(pile.pieces.begin(), pile.pieces.end()));
+      all.append(pile);
     });
     CHECK(keys(all) == keys(model.known));
   }

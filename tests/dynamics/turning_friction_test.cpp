@@ -188,10 +188,10 @@ TEST_CASE("a cylinder rolls out with 2/3 rho g / r on its line of contact") {
 
 TEST_CASE("of two materials the root of the product counts: one that has none has the last word") {
   PairSide a, b;
-  a.surface.rolling_friction = 0.002;
-  b.surface.rolling_friction = 0.008;
-  a.surface.torsional_friction = 0.01;
-  b.surface.torsional_friction = 0;
+  a.rolling_friction = 0.002;
+  b.rolling_friction = 0.008;
+  a.torsional_friction = 0.01;
+  b.torsional_friction = 0;
   Contact contact;
   take_materials(contact, a, b);
   CHECK(contact.rolling_friction == doctest::Approx(0.004).epsilon(1e-15));

@@ -249,7 +249,7 @@ Result<RigidBody> make_body(const BodyDef& def, ShapeFactory make) {
     body.bounding_radius =
         std::max(body.bounding_radius, s.pose.x.norm() + s.shape->bounding_radius());
   }
-  if (body.shapes.size() > 1) body.tree = tree_of(body.shapes);
+  if (body.dynamic() && body.shapes.size() > 1) body.tree = tree_of(body.shapes);
   if (body.type != BodyType::fixed) body.inner_radius = inner_radius_of(body.shapes);
   const Quat q = unit(def.pose.q);
   body.pose = {def.pose.x + q * body.centre_body, q};

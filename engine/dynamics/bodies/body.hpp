@@ -164,7 +164,9 @@ struct RigidBody {
   double bounding_radius = 0;       ///< about the centre of mass [m]
   double inner_radius = 0;          ///< inner_radius_of; 0 of fixed ones [m]
   std::vector<BodyShape> shapes;
-  /// Over the bounds of its shapes, in the frame of `pose`; null where it has one or none.
+  /// Over the bounds of the shapes of a dynamic body that has several, in the frame of `pose`: it
+  /// is paired with others as a whole. Null of others, of which each shape is: they may be hollow,
+  /// and hold all that moves.
   std::shared_ptr<const BoundsTree> tree;
   std::shared_ptr<const std::vector<DrawnShape>> drawn;  ///< null: the shapes
 

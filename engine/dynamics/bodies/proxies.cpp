@@ -61,28 +61,30 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, ProxySe
     }
   }
   const double wide = contact_margin(body, tick.margin);
-  const uint32_t first = out.first[slot], count = out.proxies_of(slot);
-  const bool whole = count < body.shapes.size();
-  for (uint32_t s = 0; s < count; ++s) {
-    ShapeTurning turning{Vec3::Zero(), 0};
-    if (moving && whole) turning.reach = whole_turning(body, h);
-    if (moving && !whole) turning = shape_turning(body, body.shapes[s], h);
-    Aabb bounds = whole ? whole_bounds(body, body.pose)
-                        : body.shapes[s].shape->bounds(body.pose * body.shapes[s].pose);
+  bool mesh = false;
+  for (const BodyShape& s : body.shapes) mesh |= s.shape->is_mesh();
+  const uint32_t first = out.first[slot];
+  const auto put = [&](uint32_t s, Aabb bounds, const ShapeTurning& turning) {
     const Vec3 way = step + h * turning.velocity;
     bounds.min += way.cwiseMin(Vec3::Zero());
     bounds.max += way.cwiseMax(Vec3::Zero());
     out.proxies[first + s] = {bounds.inflated(wide + turning.reach), moving};
     out.refs[first + s] = {slot, s};
+  };
+  if (body.tree) {
+    put(0, whole_bounds(*body.tree, body.pose),
+        {Vec3::Zero(), moving ? whole_turning(body, h) : 0});
+  } else {
+    for (uint32_t s = 0; s < body.shapes.size(); ++s)
+      put(s, body.shapes[s].shape->bounds(body.pose * body.shapes[s].pose),
+          moving ? shape_turning(body, body.shapes[s], h) : ShapeTurning{Vec3::Zero(), 0});
   }
-  return body.dynamic() &&
-         std::ranges::any_of(body.shapes, [](const BodyShape& s) { return s.shape->is_mesh(); });
+  return mesh && body.dynamic();
 }
 
 /// How many proxies a body has.
 uint32_t proxies_for(const RigidBody& body) {
-  const auto shapes = uint32_t(body.shapes.size());
-  return body.dynamic() ? std::min(shapes, 1u) : shapes;
+  return body.tree ? 1 : uint32_t(body.shapes.size());
 }
 
 /// Whether a body has several, told by where proxies begin.
@@ -165,37 +167,6 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
   append_proxies_of(out, roster.settled(), out.news.settled);
   ++out.news.number;
   out.news.all = false;
-}
-
-namespace {
-
-using PairPlace = std::vector<ProxyPair>::iterator;
-
-/// Sorts the pairs of a body and leaves each once; gives their new end.
-PairPlace sort_run(PairPlace begin, PairPlace end) {
-  if (std::is_sorted(begin, end)) return end;
-  std::sort(begin, end);
-  return std::unique(begin, end);
-}
-
-}  // namespace
-
-void join_by_body(const ProxySet& proxies, std::vector<ProxyPair>& pairs) {
-  if (proxies.owners.empty()) return;
-  const uint32_t *first = proxies.first.data(), *owners = proxies.owners.data();
-  auto run = pairs.begin(), end = run;  // of pairs of one body, joined so far
-  bool several = false;
-  for (const ProxyPair& pair : pairs) {
-    const ProxyPair joined{first[owners[pair.a]], first[owners[pair.b]]};
-    if (end != run && joined.a != run->a) {
-      if (several) end = sort_run(run, end);
-      run = end;
-      several = false;
-    }
-    several = several || joined.a != pair.a;
-    if (end == run || !(end[-1] == joined)) *end++ = joined;
-  }
-  pairs.erase(sort_run(run, end), pairs.end());
 }
 
 std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs) {

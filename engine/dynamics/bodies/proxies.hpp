@@ -18,9 +18,9 @@ struct ShapeRef {
   uint32_t shape = 0;  ///< index into RigidBody::shapes
 };
 
-/// Proxies of all live bodies, ordered by body slot and shape: one about all shapes of a body, or
-/// one for each of its shapes. refs[i] says whose proxies[i] is, which of a body is its first
-/// shape's.
+/// Proxies of all live bodies, ordered by body slot and shape: one about a body that is paired as a
+/// whole (RigidBody::tree), or one for each shape. refs[i] says whose proxies[i] is; of a whole
+/// body the shape is 0.
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
@@ -51,13 +51,11 @@ struct ShapeTurning {
 };
 ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h);
 
-/// Makes room for a proxy of every shape, and says where it is.
+/// Makes room for a proxy of every shape, of whole bodies too, and says where it is.
 void number_shape_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
 
-/// Fills the proxies: one for a dynamic body, and one for each shape of any other, which may be
-/// hollow and hold all that moves. They are the bounds over the tick [0, h] in which a body moves
-/// by v + h a and turns by omega, widened by `margin`. A proxy is `moving` when its body seeks
-/// contacts.
+/// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
+/// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
 /// `gravity` is the uniform acceleration [m/s2]. On the threads of the crew, if there is one.
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew = nullptr);
@@ -65,9 +63,6 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
 /// The same where `out` is what the tick before left: only what the roster names is touched.
 void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, const Vec3& gravity,
                     double h, double margin, ProxySet& out, Crew* crew = nullptr);
-
-/// Makes of sorted pairs of proxies those of bodies, sorted, of which each names the first proxy.
-void join_by_body(const ProxySet& proxies, std::vector<ProxyPair>& pairs);
 
 /// More pairs than a tick can hold: who is in most of them, and what to tell the user.
 struct Crowd {

@@ -5,11 +5,9 @@
 
 namespace tumble {
 
-/// Bounds of all shapes of a body, which has some, where it is at `pose`: for several, those of the
-/// box about them.
-inline Aabb whole_bounds(const RigidBody& body, const Pose& pose) {
-  if (!body.tree) return body.shapes[0].shape->bounds(pose * body.shapes[0].pose);
-  const Aabb box = body.tree->bounds();
+/// Bounds of the box about a body of several shapes, over which the tree is, where it is at `pose`.
+inline Aabb whole_bounds(const BoundsTree& tree, const Pose& pose) {
+  const Aabb box = tree.bounds();
   const Vec3 half = 0.5 * box.extent();
   if (!half.allFinite()) return box;
   const Vec3 out = pose.q.toRotationMatrix().cwiseAbs() * half, x = pose.point(box.centre());

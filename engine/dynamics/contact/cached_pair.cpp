@@ -32,7 +32,7 @@ double seen_tolerance(double margin) {
 }
 
 CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
-  return {pair, relative_pose(a, b), margin, {}, false};
+  return {pair, relative_pose(a, b), margin};
 }
 
 double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b, double enough) {

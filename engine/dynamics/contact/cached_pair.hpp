@@ -24,9 +24,9 @@ double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
 /// How the smaller side of a pair moved since a look, in the frame of the larger one.
 class MotionSince {
  public:
-  /// `now`: relative_pose of the two sides.
-  MotionSince(const CachedPair& seen, const Pose& now)
-      : back_(seen.relative * now.inverse()), turn_(2 * back_.q.vec().norm()) {}
+  /// From one relative_pose of the sides to another.
+  MotionSince(const Pose& then, const Pose& now)
+      : back_(then * now.inverse()), turn_(2 * back_.q.vec().norm()) {}
 
   /// How far what is at x now moved, whichever side it belongs to [m].
   double shift(const Vec3& x) const { return (x - back_.point(x)).norm(); }
@@ -45,24 +45,26 @@ inline bool smaller_first(const PairSide& a, const PairSide& b) {
   return a.shape_radius < b.shape_radius;
 }
 
-/// What a contact has from the materials of its two sides, where the forces that its points
+/// What a contact has from the materials of its two shapes, where the forces that its points
 /// remember are known. Rolling and torsional friction stand for the width of the patch that a point
 /// or a line leaves out; three points that press span theirs, and resist turning by where they
 /// press and by their friction.
-inline void take_materials(Contact& contact, const PairSide& a, const PairSide& b) {
-  const SideSurface on_a = a.surface_of(contact.key.shape_a),
-                    on_b = b.surface_of(contact.key.shape_b);
-  const CombinedMaterial combined = combine(on_a, on_b);
+inline void take_surfaces(Contact& contact, const SideSurface& a, const SideSurface& b) {
+  const CombinedMaterial combined = combine(a, b);
   const bool narrow = contact.pressing() < 3;
   contact.friction = combined.friction;
   contact.restitution = combined.restitution;
   const auto arm = [narrow](double of_a, double of_b) {
     return narrow ? std::sqrt(of_a * of_b) : 0;
   };
-  contact.rolling_friction = arm(on_a.rolling_friction, on_b.rolling_friction);
-  contact.torsional_friction = arm(on_a.torsional_friction, on_b.torsional_friction);
+  contact.rolling_friction = arm(a.rolling_friction, b.rolling_friction);
+  contact.torsional_friction = arm(a.torsional_friction, b.torsional_friction);
   if (!contact.resists_turning()) contact.turning_torque.setZero();
-  contact.surface_velocity = on_a.belt - on_b.belt;
+  contact.surface_velocity = a.belt - b.belt;
+}
+inline void take_materials(Contact& contact, const PairSide& a, const PairSide& b) {
+  if (!in_pieces(a, b)) return take_surfaces(contact, a, b);
+  take_surfaces(contact, a.surface_of(contact.shapes.a), b.surface_of(contact.shapes.b));
 }
 
 /// A contact of the look, at the bodies' present poses: its points stay where they are on the two

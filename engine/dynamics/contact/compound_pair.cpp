@@ -1,6 +1,5 @@
 #include "engine/dynamics/contact/compound_pair.hpp"
 
-#include "engine/collision/feature_key.hpp"
 #include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
@@ -9,20 +8,10 @@
 namespace tumble {
 namespace {
 
-ShapesOfPair shapes_of(const CachedPair& piece) {
-  return {piece.pair.shape_a, piece.pair.shape_b};
-}
-
-/// Tells the features of one pair of shapes from those of another: keys of points of bodies that
-/// have several are those of the narrow phase, changed in these bits.
-uint64_t mark_of(const ShapesOfPair& shapes) {
-  return mix_key(mix_key(0, shapes.a), shapes.b);
-}
-
 /// What is known of two shapes; null if nothing is.
-const CachedPair* find_piece(std::span<const CachedPair> pieces, const ShapesOfPair& at) {
-  const auto found = std::ranges::lower_bound(pieces, at, {}, &shapes_of);
-  return found != pieces.end() && shapes_of(*found) == at ? &*found : nullptr;
+const CachedShapes* find_piece(std::span<const CachedShapes> pieces, const ShapesOfPair& at) {
+  const auto found = std::ranges::lower_bound(pieces, at, {}, &CachedShapes::shapes);
+  return found != pieces.end() && found->shapes == at ? &*found : nullptr;
 }
 
 /// The place of one of the shapes of a side in the side's frame.
@@ -67,12 +56,12 @@ CompoundPair::CompoundPair(const PairContacts& finder, const PairSide& a, const 
       slack_(2 * seen_tolerance(std::min(a.margin, b.margin))),
       named_(no_shapes) {}
 
-const PairSide& CompoundPair::side_a(const CachedPair& piece) {
-  return side_of(a_, piece.pair.shape_a, named_.a, memory().a);
+const PairSide& CompoundPair::side_a(const CachedShapes& piece) {
+  return side_of(a_, piece.shapes.a, named_.a, memory().a);
 }
 
-const PairSide& CompoundPair::side_b(const CachedPair& piece) {
-  return side_of(b_, piece.pair.shape_b, named_.b, memory().b);
+const PairSide& CompoundPair::side_b(const CachedShapes& piece) {
+  return side_of(b_, piece.shapes.b, named_.b, memory().b);
 }
 
 /// Of a shape, in `side` unless it was named last.
@@ -85,42 +74,41 @@ const PairSide& CompoundPair::side_of(const PairSide& whole, uint32_t shape, uin
 }
 
 /// PairContacts::reach of two shapes [m].
-double CompoundPair::reach_of(const CachedPair& piece) {
+double CompoundPair::reach_of(const CachedShapes& piece) {
   return finder_.reach(side_a(piece), side_b(piece));
 }
 
 /// How the bodies moved since a look; many looks were at one time.
-CompoundPair::Motion& CompoundPair::motion_since(const CachedPair& look) {
-  if (motion_ && motion_->since.x == look.relative.x && motion_->since.q == look.relative.q)
-    return *motion_;
-  const double turn = 2 * (now_.q * look.relative.q.conjugate()).vec().norm();
-  const double shift = (now_.x - look.relative.x).norm();
-  motion_ = {look.relative, shift + turn * std::min(a_.shape_radius, b_.shape_radius), {}};
+CompoundPair::Motion& CompoundPair::motion_since(const Pose& then) {
+  if (motion_ && motion_->since.x == then.x && motion_->since.q == then.q) return *motion_;
+  const double turn = 2 * (now_.q * then.q.conjugate()).vec().norm();
+  const double shift = (now_.x - then.x).norm();
+  motion_ = {then, shift + turn * std::min(a_.shape_radius, b_.shape_radius), {}};
   return *motion_;
 }
 
 /// The same of single points.
-const MotionSince& CompoundPair::points_since(const CachedPair& look) {
-  Motion& motion = motion_since(look);
-  if (!motion.points) motion.points.emplace(look, now_);
+const MotionSince& CompoundPair::points_since(const Pose& then) {
+  Motion& motion = motion_since(then);
+  if (!motion.points) motion.points.emplace(then, now_);
   return *motion.points;
 }
 
 /// Bound on how far two shapes moved against each other, by the smaller of them [m].
-double CompoundPair::moved(const CachedPair& piece) {
+double CompoundPair::moved(const CachedShapes& piece) {
   const bool first = smaller_first(a_, b_);
   const PairSide &small = first ? a_ : b_, &large = first ? b_ : a_;
-  const uint32_t of_small = first ? piece.pair.shape_a : piece.pair.shape_b;
-  const uint32_t of_large = first ? piece.pair.shape_b : piece.pair.shape_a;
-  const MotionSince& motion = points_since(piece);
+  const uint32_t of_small = first ? piece.shapes.a : piece.shapes.b;
+  const uint32_t of_large = first ? piece.shapes.b : piece.shapes.a;
+  const MotionSince& motion = points_since(piece.relative);
   const double radius = radius_of(small, of_small), other = radius_of(large, of_large);
   return other < radius ? motion.shift(centre_in(large, of_large), other)
                         : motion.shift(now_.point(centre_in(small, of_small)), radius);
 }
 
 /// Whether two shapes do not have in reach what was not found when they were looked at.
-bool CompoundPair::still_seen(const CachedPair& piece) {
-  if (piece.margin - motion_since(piece).most >= reach_) return true;
+bool CompoundPair::still_seen(const CachedShapes& piece) {
+  if (piece.margin - motion_since(piece.relative).most >= reach_) return true;
   const double left = piece.margin - moved(piece);
   return left >= reach_ || left >= reach_of(piece);
 }
@@ -132,26 +120,25 @@ bool CompoundPair::contacts_hold() {
 }
 
 bool CompoundPair::find_whether_they_hold() {
-  const auto touching = std::ranges::find_if(history_.pieces, &CachedPair::touch);
+  const auto touching = std::ranges::find_if(history_.pieces, &CachedShapes::touch);
   if (history_.contacts.empty() || touching == history_.pieces.end())
     return history_.contacts.empty() && touching == history_.pieces.end();
   const bool first = smaller_first(a_, b_);
   const Pose in_large = (first ? b_ : a_).shape_pose.inverse() * (first ? a_ : b_).body_pose;
-  const MotionSince& motion = points_since(*touching);
+  const MotionSince& motion = points_since(touching->relative);
   const double tolerance = seen_tolerance(std::min(a_.margin, b_.margin));
   for (const Contact& c : history_.contacts)
     for (const ContactPoint& p : c.used())
       if (motion.shift(in_large.point(first ? p.anchor_a : p.anchor_b)) > tolerance) return false;
-  return std::ranges::all_of(history_.pieces, [this](const CachedPair& p) {
-    return !p.touch ||
-           (planes_of(a_, p.pair.shape_a) && planes_of(b_, p.pair.shape_b) && still_seen(p));
+  return std::ranges::all_of(history_.pieces, [this](const CachedShapes& p) {
+    return !p.touch || (planes_of(a_, p.shapes.a) && planes_of(b_, p.shapes.b) && still_seen(p));
   });
 }
 
 bool CompoundPair::knows() {
   if (!history_.seen) return false;
-  if (history_.seen->margin - motion_since(*history_.seen).most < reach_) return false;
-  return contacts_hold() && std::ranges::all_of(history_.pieces, [this](const CachedPair& p) {
+  if (history_.seen->margin - motion_since(history_.seen->relative).most < reach_) return false;
+  return contacts_hold() && std::ranges::all_of(history_.pieces, [this](const CachedShapes& p) {
            return p.touch || still_seen(p);
          });
 }
@@ -160,37 +147,40 @@ bool CompoundPair::knows() {
 /// those that were not before.
 void CompoundPair::renew_list(Sights& sights) {
   const double asked = reach_ + slack_;
-  const ContactKey key{a_.body, b_.body, 0, 0, 0};
-  if (history_.seen && history_.seen->margin - motion_since(*history_.seen).most >= asked) {
-    sights.seen.push_back(*history_.seen);
-    renew(sights.seen.back(), motion_since(*history_.seen).most);
-    sights.seen.insert(sights.seen.end(), history_.pieces.begin(), history_.pieces.end());
-    return;
+  const ContactKey key{a_.body, a_.shape_index, b_.body, b_.shape_index, 0};
+  if (history_.seen) {
+    const double left = history_.seen->margin - motion_since(history_.seen->relative).most;
+    if (left >= asked) {
+      sights.seen.push_back({key, now_, left});
+      sights.pieces.insert(sights.pieces.end(), history_.pieces.begin(), history_.pieces.end());
+      return;
+    }
   }
-  const RigidBody &body_a = finder_.bodies[a_.body], &body_b = finder_.bodies[b_.body];
   std::vector<ShapesNear>& near = memory().near;
   const double wanted = tolerances::list_of_reach * asked + std::min(a_.margin, b_.margin);
-  const double listed = find_shape_pairs(body_a, body_b, wanted, near);
-  sights.seen.push_back({key, now_, listed, {}, false});
+  const double listed =
+      find_shape_pairs(side_shapes(finder_.bodies[a_.body], a_.shape_index),
+                       side_shapes(finder_.bodies[b_.body], b_.shape_index), wanted, near);
+  sights.seen.push_back({key, now_, listed});
   for (const ShapesNear& at : near) {
-    const CachedPair* known = find_piece(history_.pieces, at.shapes);
-    const ContactKey two{a_.body, b_.body, at.shapes.a, at.shapes.b, CachedPair::of_shapes};
-    sights.seen.push_back(known ? *known : CachedPair{two, now_, at.apart, {}, false});
+    const CachedShapes* known = find_piece(history_.pieces, at.shapes);
+    sights.pieces.push_back(known ? *known
+                                  : CachedShapes{key, at.shapes, now_, at.apart, {}, false});
   }
 }
 
 /// Looks at two shapes; the manifolds are added to those found.
-void CompoundPair::look_at(CachedPair& piece) {
+void CompoundPair::look_at(CachedShapes& piece) {
   Memory& m = memory();
   const PairSide &a = side_a(piece), &b = side_b(piece);
-  const uint64_t mark = mark_of(shapes_of(piece));
+  const uint64_t mark = mark_of(piece.shapes);
   m.kept.assign(pressed_.begin(), pressed_.end());
   for (uint64_t& feature : m.kept) feature ^= mark;
   ContactQuery query{finder_.reach(a, b) + slack_, finder_.hierarchy, m.kept};
   if (piece.touch) query.start = &piece.closest;
   const size_t first = m.found.manifolds.size();
   const PairContacts::Look seen = finder_.look_at_shapes(a, b, query, m.found.manifolds);
-  m.found.shapes.resize(m.found.manifolds.size(), shapes_of(piece));
+  m.found.shapes.resize(m.found.manifolds.size(), piece.shapes);
   for (size_t i = first; i < m.found.manifolds.size(); ++i)
     for (ManifoldPoint& p : m.found.manifolds[i].used()) p.feature ^= mark;
   piece.relative = now_;
@@ -200,19 +190,14 @@ void CompoundPair::look_at(CachedPair& piece) {
   asked_ = std::max(asked_, query.margin);
 }
 
-/// What is known of a pair that did not touch, or of all that are not listed, as of now.
-void CompoundPair::renew(CachedPair& look, double moved) const {
-  look.margin -= moved;
-  look.relative = now_;
-}
-
 /// Whether any of them touches now.
-bool CompoundPair::look_at_those_apart(std::span<CachedPair> pieces) {
+bool CompoundPair::look_at_those_apart(std::span<CachedShapes> pieces) {
   bool touch = false;
-  for (CachedPair& piece : pieces) {
+  for (CachedShapes& piece : pieces) {
     if (piece.touch) continue;
     if (still_seen(piece)) {
-      renew(piece, moved(piece));
+      piece.margin -= moved(piece);
+      piece.relative = now_;
       continue;
     }
     look_at(piece);
@@ -224,21 +209,21 @@ bool CompoundPair::look_at_those_apart(std::span<CachedPair> pieces) {
 bool CompoundPair::look(Sights& sights) {
   if (knows()) {
     sights.seen.push_back(*history_.seen);
-    sights.seen.insert(sights.seen.end(), history_.pieces.begin(), history_.pieces.end());
+    sights.pieces.insert(sights.pieces.end(), history_.pieces.begin(), history_.pieces.end());
     return true;
   }
   Memory& m = memory();
   m.found.manifolds.clear();
   m.found.shapes.clear();
   pressed_ = pressed_features(history_.contacts, m.features);
-  const size_t place = sights.seen.size();
+  const size_t place = sights.pieces.size();
   renew_list(sights);
-  const std::span pieces = std::span(sights.seen).subspan(place + 1);
+  const std::span pieces = std::span(sights.pieces).subspan(place);
   m.touched.clear();
   for (uint32_t i = 0; i < pieces.size(); ++i)
     if (pieces[i].touch) m.touched.push_back(i);
   const bool all_listed =
-      m.touched.size() == size_t(std::ranges::count_if(history_.pieces, &CachedPair::touch));
+      m.touched.size() == size_t(std::ranges::count_if(history_.pieces, &CachedShapes::touch));
   const bool carried = all_listed && contacts_hold();
   if (!look_at_those_apart(pieces) && carried) return true;
   for (const uint32_t i : m.touched) look_at(pieces[i]);

@@ -7,11 +7,12 @@
 
 namespace tumble {
 
-/// Two bodies of which one has several shapes. What is known of them is a list of all pairs of
-/// shapes that are near each other, which stays good until the bodies have moved against each other
-/// by what it reaches beyond; and of each such pair, whether it touched or how far it was apart.
-/// Only those that may have come near since are looked at. Contacts, which shapes share
-/// (shared_manifolds.hpp), are carried along while their own points hardly move against each other.
+/// A pair of which at least one side is a body of several shapes. What is known of them is a list
+/// of all pairs of shapes that are near each other, which stays good until the bodies have moved
+/// against each other by what it reaches beyond; and of each such pair, whether it touched or how
+/// far it was apart. Only those that may have come near since are looked at. Contacts, which shapes
+/// share (shared_manifolds.hpp), are carried along while their own points hardly move against each
+/// other.
 class CompoundPair {
  public:
   CompoundPair(const PairContacts& finder, const PairSide& a, const PairSide& b,
@@ -24,27 +25,26 @@ class CompoundPair {
  private:
   /// Whether all that is known still holds.
   bool knows();
-  const PairSide& side_a(const CachedPair& piece);
-  const PairSide& side_b(const CachedPair& piece);
+  const PairSide& side_a(const CachedShapes& piece);
+  const PairSide& side_b(const CachedShapes& piece);
   const PairSide& side_of(const PairSide& whole, uint32_t shape, uint32_t& named,
                           PairSide& side) const;
-  double reach_of(const CachedPair& piece);
+  double reach_of(const CachedShapes& piece);
   /// Of the bodies against each other.
   struct Motion {
-    Pose since;   ///< CachedPair::relative
+    Pose since;   ///< relative_pose then
     double most;  ///< bound on the way of any point [m]
     std::optional<MotionSince> points;
   };
-  Motion& motion_since(const CachedPair& look);
-  const MotionSince& points_since(const CachedPair& look);
-  double moved(const CachedPair& piece);
-  bool still_seen(const CachedPair& piece);
+  Motion& motion_since(const Pose& then);
+  const MotionSince& points_since(const Pose& then);
+  double moved(const CachedShapes& piece);
+  bool still_seen(const CachedShapes& piece);
   bool contacts_hold();
   bool find_whether_they_hold();
   void renew_list(Sights& sights);
-  void renew(CachedPair& look, double moved) const;
-  bool look_at_those_apart(std::span<CachedPair> pieces);
-  void look_at(CachedPair& piece);
+  bool look_at_those_apart(std::span<CachedShapes> pieces);
+  void look_at(CachedShapes& piece);
 
   const PairContacts& finder_;
   const PairSide &a_, &b_;

@@ -2,14 +2,12 @@
 
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
-#include "engine/dynamics/contact/compound_pair.hpp"
 #include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 namespace tumble {
 namespace {
@@ -20,11 +18,6 @@ namespace {
 double standing_reach(const PairSide& a, const PairSide& b) {
   const bool triangles = (a.mesh || b.mesh) && a.polyhedral && b.polyhedral;
   return (triangles ? tolerances::triangles_of_margin : 1.0) * std::min(a.margin, b.margin);
-}
-
-/// Of which one has several shapes.
-bool in_pieces(const PairSide& a, const PairSide& b) {
-  return a.several || b.several;
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -96,15 +89,14 @@ class PointMatcher {
   std::vector<unsigned>& taken_;  ///< of each old contact, a bit for a point
 };
 
-/// The places of manifolds in the order of their shapes and parts, those of one part as they came.
-void order_by_part(std::span<const Manifold> manifolds, std::span<const ShapesOfPair> shapes,
-                   std::vector<uint32_t>& order) {
-  if (order.size() < manifolds.size()) order.resize(manifolds.size());
-  const auto end = order.begin() + std::ptrdiff_t(manifolds.size());
-  std::iota(order.begin(), end, 0u);
+/// The places of manifolds in the order of their parts, those of one part as they came.
+void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& order) {
+  order.assign(manifolds.size(), 0u);
   if (manifolds.size() < 2) return;
-  std::sort(order.begin(), end, [&](uint32_t x, uint32_t y) {
-    return std::tie(shapes[x], manifolds[x].part, x) < std::tie(shapes[y], manifolds[y].part, y);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t x, uint32_t y) {
+    const uint64_t part_x = manifolds[x].part, part_y = manifolds[y].part;
+    return part_x != part_y ? part_x < part_y : x < y;
   });
 }
 
@@ -117,17 +109,19 @@ double rounding(const PairSide& side, uint32_t shape, const Vec3& outward) {
   return of_body.shape->rounding_along((side.body_pose.q * of_body.pose.q).conjugate() * outward);
 }
 
-void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
-                  Contact& c) {
+void make_contact(const ContactKey& key, const ShapesOfPair& shapes, const Manifold& m,
+                  const PairSide& a, const PairSide& b, Contact& c) {
   const ContactHead fresh;
   static_cast<ContactHead&>(c) = fresh;
   c.key = key;
+  c.key.part = m.part;
+  c.shapes = shapes;
   c.normal = m.normal;
   c.normal_a = a.body_pose.inverse_direction(m.normal);
   c.count = m.count;
   c.closest = m.closest;
-  c.rounding_a = rounding(a, key.shape_a, m.normal);
-  c.rounding_b = rounding(b, key.shape_b, -m.normal);
+  c.rounding_a = rounding(a, shapes.a, m.normal);
+  c.rounding_b = rounding(b, shapes.b, -m.normal);
   const Mat3 to_a = a.body_pose.q.conjugate().toRotationMatrix();
   const Mat3 to_b = b.body_pose.q.conjugate().toRotationMatrix();
   for (int i = 0; i < m.count; ++i) {
@@ -143,20 +137,6 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
 
 }  // namespace
 
-std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
-                                           std::vector<uint64_t>& memory) {
-  if (contacts.empty()) return {};
-  memory.resize(std::max(memory.size(), 4 * contacts.size()));
-  size_t count = 0;
-  for (const Contact& c : contacts) {
-    for (const ContactPoint& p : c.used()) {
-      memory[count] = p.feature;
-      count += p.normal_force > 0;
-    }
-  }
-  return std::span(memory).first(count);
-}
-
 double PairContacts::reach(const PairSide& a, const PairSide& b) const {
   const double approach =
       (b.end_velocity - a.end_velocity).norm() * tick.h + (a.turning + b.turning);
@@ -166,7 +146,6 @@ double PairContacts::reach(const PairSide& a, const PairSide& b) const {
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
   if (!history.seen) return false;
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  if (in_pieces(a, b)) return false;  // what look() finds out
   const bool apart = history.contacts.empty();
   if (!apart && !(a.planes && b.planes)) return false;
   const double reach_now = reach(a, b);
@@ -194,9 +173,8 @@ PairContacts::Look PairContacts::look_at_shapes(const PairSide& a, const PairSid
   return {none ? std::max(query.margin, apart) : query.margin, none};
 }
 
-bool PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
+void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  if (in_pieces(a, b)) return CompoundPair(*this, a, b, history).look(sights);
   const bool can_be_carried = a.planes && b.planes;
   const double reach_now = reach(a, b);
   // Good for some motion.
@@ -205,25 +183,24 @@ bool PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sight
   ContactQuery query{reach_now + slack, hierarchy, pressed_features(history.contacts, memory)};
   if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
   const Look seen = look_at_shapes(a, b, query, sights.manifolds);
-  sights.shapes.resize(sights.manifolds.size());
   if (can_be_carried || (seen.none && seen.margin > reach_now && !a.sphere && !b.sphere))
     sights.seen.push_back(look_at(key(pair), a, b, seen.margin));
-  return false;
 }
 
 void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
                         std::span<const Manifold> manifolds, std::span<const ShapesOfPair> shapes,
                         std::span<Contact> contacts) const {
+  const ContactKey pair_key = key(pair);
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  const ShapesOfPair two{a.shape_index, b.shape_index};
   static thread_local std::vector<unsigned> taken;
   static thread_local std::vector<uint32_t> order;
-  order_by_part(manifolds, shapes, order);
+  order_by_part(manifolds, order);
   PointMatcher matcher(before, tolerances::same_place_of_radius * std::min(a.radius, b.radius),
                        taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
-    const Manifold& m = manifolds[order[i]];
-    const ShapesOfPair& at = shapes[order[i]];
-    make_contact({a.body, b.body, at.a, at.b, m.part}, m, a, b, contacts[i]);
+    const uint32_t at = order[i];
+    make_contact(pair_key, shapes.empty() ? two : shapes[at], manifolds[at], a, b, contacts[i]);
     matcher.match(contacts[i]);
     take_materials(contacts[i], a, b);
   }

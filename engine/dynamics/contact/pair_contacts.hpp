@@ -2,40 +2,41 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/contact/shared_manifolds.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
-/// What is known of a pair of bodies from the tick before.
+/// What is known of a pair from the tick before.
 struct PairHistory {
-  std::span<const Contact> contacts;  ///< of the pair, sorted by key
-  const CachedPair* seen = nullptr;   ///< null where the narrow phase must look
-  /// Of shapes of bodies that have several, near each other; sorted.
-  std::span<const CachedPair> pieces = {};
+  std::span<const Contact> contacts;          ///< of the pair, sorted by key
+  const CachedPair* seen = nullptr;           ///< null where the narrow phase must look
+  std::span<const CachedShapes> pieces = {};  ///< of the pair, sorted by shapes
 };
 
-/// Finds the contacts of single pairs of bodies, with the forces of the points that they continue.
+/// Finds the contacts of single pairs, with the forces of the points that they continue. What it
+/// says of knows() and look() is for two shapes; of others, CompoundPair.
 class PairContacts {
  public:
-  std::span<const PairSide> sides;  ///< by first proxy of a body
+  std::span<const PairSide> sides;  ///< by proxy
   std::span<const RigidBody> bodies;
   SideTick tick;
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
 
   /// Whether all that is known may be carried along (cached_pair.hpp): the bodies hardly moved
-  /// against each other since the narrow phase looked. Of bodies of several shapes look() finds
-  /// out.
+  /// against each other since the narrow phase looked.
   bool knows(const ProxyPair& pair, const PairHistory& history) const;
-  /// Has the narrow phase look: appends what it sees of the pair. True where the contacts may be
-  /// carried along all the same, and no manifolds are appended.
-  bool look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const;
+  /// Has the narrow phase look: appends what it sees of the pair.
+  void look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const;
   /// Makes the contacts of a pair from what was seen of it, sorted by key, with the forces of those
-  /// that they continue. There are as many as manifolds.
+  /// that they continue. There are as many as manifolds; of two shapes `shapes` is empty.
   void make(const ProxyPair& pair, std::span<const Contact> before,
             std::span<const Manifold> manifolds, std::span<const ShapesOfPair> shapes,
             std::span<Contact> contacts) const;
 
   ContactKey key(const ProxyPair& pair) const {
-    return {sides[pair.a].body, sides[pair.b].body, 0, 0, 0};
+    const PairSide &a = sides[pair.a], &b = sides[pair.b];
+    return {a.body, a.shape_index, b.body, b.shape_index, 0};
   }
 
   /// How far apart what touches within the tick may be [m].
@@ -51,7 +52,17 @@ class PairContacts {
 };
 
 /// The features of the points that press, in `memory`.
-std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
-                                           std::vector<uint64_t>& memory);
+inline std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
+                                                  std::vector<uint64_t>& memory) {
+  memory.resize(std::max(memory.size(), 4 * contacts.size()));
+  size_t count = 0;
+  for (const Contact& c : contacts) {
+    for (const ContactPoint& p : c.used()) {
+      memory[count] = p.feature;
+      count += p.normal_force > 0;
+    }
+  }
+  return std::span(memory).first(count);
+}
 
 }  // namespace tumble

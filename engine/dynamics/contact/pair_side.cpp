@@ -11,8 +11,7 @@
 namespace tumble {
 namespace {
 
-SideSurface surface_on(const RigidBody& body, const Material& material, bool particle) {
-  SideSurface s;
+void take_surface(SideSurface& s, const RigidBody& body, const Material& material, bool particle) {
   s.friction = material.friction;
   s.restitution = material.restitution;
   if (!particle) {
@@ -20,61 +19,28 @@ SideSurface surface_on(const RigidBody& body, const Material& material, bool par
     s.torsional_friction = material.torsional_arm();
   }
   if (!material.surface_velocity.isZero(0)) s.belt = body.pose.direction(material.surface_velocity);
-  return s;
 }
 
 /// What all sides of a body have in common.
-PairSide side_of(const RigidBody& body, uint32_t slot, const SideTick& tick) {
-  PairSide side;
+void take_body(PairSide& side, const RigidBody& body, ShapeRef ref, const SideTick& tick) {
   side.body_pose = body.pose;
   side.end_velocity = body.v;
   side.foresight = std::numeric_limits<double>::infinity();
   side.margin = contact_margin(body, tick.margin);
   side.radius = body.bounding_radius;
-  side.body = slot;
+  side.body = ref.body;
+  side.shape_index = ref.shape;
   side.dynamic = body.dynamic();
   side.particle = is_particle(body);
   if (side.dynamic) {
     side.end_velocity += tick.h * body.gravity_scale * tick.gravity;
     side.foresight = foresight(body);
   }
-  return side;
 }
 
-}  // namespace
-
-bool made_of_planes(const Shape& shape) {
-  return shape.polyhedral() != nullptr || shape.is_half_space();
-}
-
-SideSurface PairSide::surface_of(uint32_t shape_index) const {
-  return several ? surface_on(*several, several->shapes[shape_index].material, particle) : surface;
-}
-
-PairSide shape_side(std::span<const RigidBody> bodies, ShapeRef ref, const SideTick& tick) {
-  const RigidBody& body = bodies[ref.body];
-  const BodyShape& of_body = body.shapes[ref.shape];
-  PairSide side = side_of(body, ref.body, tick);
-  side.shape_pose = body.pose * of_body.pose;
-  side.shape_radius = of_body.shape->bounding_radius();
-  side.shape = of_body.shape.get();
-  side.polyhedral = side.shape->polyhedral() != nullptr;
-  side.planes = made_of_planes(*side.shape);
-  side.mesh = side.shape->is_mesh();
-  side.sphere = side.shape->is_ball();
-  side.surface = surface_on(body, of_body.material, side.particle);
-  if (side.dynamic) {
-    const ShapeTurning turning = shape_turning(body, of_body, tick.h);
-    side.end_velocity += turning.velocity;
-    side.turning = turning.reach;
-  }
-  return side;
-}
-
-PairSide body_side(std::span<const RigidBody> bodies, uint32_t slot, const SideTick& tick) {
-  const RigidBody& body = bodies[slot];
-  if (body.shapes.size() == 1) return shape_side(bodies, {slot, 0}, tick);
-  PairSide side = side_of(body, slot, tick);
+PairSide whole_side(const RigidBody& body, uint32_t slot, const SideTick& tick) {
+  PairSide side;
+  take_body(side, body, {slot, 0}, tick);
   side.shape_pose = body.pose;
   side.shape_radius = body.bounding_radius;
   side.several = &body;
@@ -86,6 +52,45 @@ PairSide body_side(std::span<const RigidBody> bodies, uint32_t slot, const SideT
   side.mesh = side.polyhedral && all([](const Shape& s) { return s.is_mesh(); });
   if (side.dynamic) side.turning = whole_turning(body, tick.h);
   return side;
+}
+
+}  // namespace
+
+bool made_of_planes(const Shape& shape) {
+  return shape.polyhedral() != nullptr || shape.is_half_space();
+}
+
+SideSurface PairSide::surface_of(uint32_t shape) const {
+  if (!several) return *this;
+  SideSurface s;
+  take_surface(s, *several, several->shapes[shape].material, particle);
+  return s;
+}
+
+PairSide shape_side(std::span<const RigidBody> bodies, ShapeRef ref, const SideTick& tick) {
+  const RigidBody& body = bodies[ref.body];
+  const BodyShape& of_body = body.shapes[ref.shape];
+  PairSide side;
+  take_body(side, body, ref, tick);
+  side.shape_pose = body.pose * of_body.pose;
+  side.shape_radius = of_body.shape->bounding_radius();
+  side.shape = of_body.shape.get();
+  side.polyhedral = side.shape->polyhedral() != nullptr;
+  side.planes = made_of_planes(*side.shape);
+  side.mesh = side.shape->is_mesh();
+  side.sphere = side.shape->is_ball();
+  take_surface(side, body, of_body.material, side.particle);
+  if (side.dynamic) {
+    const ShapeTurning turning = shape_turning(body, of_body, tick.h);
+    side.end_velocity += turning.velocity;
+    side.turning = turning.reach;
+  }
+  return side;
+}
+
+PairSide pair_side(std::span<const RigidBody> bodies, ShapeRef ref, const SideTick& tick) {
+  const RigidBody& body = bodies[ref.body];
+  return body.tree ? whole_side(body, ref.body, tick) : shape_side(bodies, ref, tick);
 }
 
 }  // namespace tumble

@@ -10,14 +10,14 @@
 namespace tumble {
 namespace {
 
-/// Calls f(i) for the shapes of a body whose bounds meet a box in the frame of its pose.
+/// Calls f(i) for the shapes of a side whose bounds meet a box in the frame of its pose.
 template <class F>
-void for_shapes_in(const RigidBody& body, const Aabb& box, const F& f) {
-  if (!body.tree) {
+void for_shapes_in(const SideShapes& side, const Aabb& box, const F& f) {
+  if (!side.tree) {
     f(0u);
     return;
   }
-  body.tree->overlapping(box, [&f](uint32_t i) {
+  side.tree->overlapping(box, [&f](uint32_t i) {
     f(i);
     return true;
   });
@@ -56,22 +56,27 @@ double boxes_apart(const Aabb& a, const Aabb& b) {
   return std::isfinite(d) ? d : 0;
 }
 
-/// How far the boxes about two bodies are apart at least, by the directions of their sides [m].
-double bodies_apart(const RigidBody& a, const RigidBody& b) {
-  const auto beyond = [](const RigidBody& one, const RigidBody& other) {
-    const Aabb box = whole_bounds(one, Pose()),
-               of_other = whole_bounds(other, one.pose.inverse() * other.pose);
-    return boxes_apart(box, of_other);
+/// Bounds of all shapes of a side where its body is at `pose`.
+Aabb bounds_of(const SideShapes& side, const Pose& pose) {
+  if (side.tree) return whole_bounds(*side.tree, pose);
+  return side.shapes[0].shape->bounds(pose * side.shapes[0].pose);
+}
+
+/// How far the boxes about two sides are apart at least, by the directions of the boxes [m].
+double sides_apart(const SideShapes& a, const SideShapes& b) {
+  const auto beyond = [](const SideShapes& one, const SideShapes& other) {
+    const Aabb of_other = bounds_of(other, one.body.pose.inverse() * other.body.pose);
+    return boxes_apart(bounds_of(one, Pose()), of_other);
   };
   return std::max(beyond(a, b), beyond(b, a));
 }
 
-/// How far the bounds of shapes of two bodies are apart at least, of which the second has as many
+/// How far the bounds of shapes of two sides are apart at least, of which the second has as many
 /// or more; up to the radius of the smaller body [m].
-double shapes_apart(const RigidBody& few, const RigidBody& many) {
+double shapes_apart(const SideShapes& few, const SideShapes& many) {
   if (!many.tree) return 0;
-  const Pose in_many = many.pose.inverse() * few.pose;
-  double apart = std::min(few.bounding_radius, many.bounding_radius);
+  const Pose in_many = many.body.pose.inverse() * few.body.pose;
+  double apart = std::min(few.body.bounding_radius, many.body.bounding_radius);
   for (const BodyShape& s : few.shapes) {
     const Vec3 x = in_many.point(s.pose.x);
     const double radius = s.shape->bounding_radius();
@@ -88,15 +93,20 @@ double shapes_apart(const RigidBody& few, const RigidBody& many) {
 
 }  // namespace
 
-double find_shape_pairs(const RigidBody& a, const RigidBody& b, double reach,
+SideShapes side_shapes(const RigidBody& body, uint32_t shape) {
+  if (body.tree) return {body, body.shapes, 0, body.tree.get()};
+  return {body, std::span(body.shapes).subspan(shape, 1), shape};
+}
+
+double find_shape_pairs(const SideShapes& a, const SideShapes& b, double reach,
                         std::vector<ShapesNear>& out) {
   out.clear();
-  const double bodies = bodies_apart(a, b);
-  if (bodies > reach) return bodies;
+  const double sides = sides_apart(a, b);
+  if (sides > reach) return sides;
   const bool first = a.shapes.size() <= b.shapes.size();
-  const RigidBody &few = first ? a : b, &many = first ? b : a;
-  const Pose in_few = few.pose.inverse() * many.pose, in_many = many.pose.inverse() * few.pose;
-  for_shapes_in(few, whole_bounds(many, in_few).inflated(reach), [&](uint32_t i) {
+  const SideShapes &few = first ? a : b, &many = first ? b : a;
+  const Pose in_few = few.body.pose.inverse() * many.body.pose, in_many = in_few.inverse();
+  for_shapes_in(few, bounds_of(many, in_few).inflated(reach), [&](uint32_t i) {
     const BodyShape& s = few.shapes[i];
     const Pose there = in_many * s.pose;
     const Aabb box = many.tree ? s.shape->bounds(there) : Aabb();
@@ -106,7 +116,8 @@ double find_shape_pairs(const RigidBody& a, const RigidBody& b, double reach,
           !near_surface(*t.shape, in_few * t.pose, s, reach))
         return;
       const double apart = many.tree ? boxes_apart(box, t.shape->bounds(t.pose)) : 0;
-      out.push_back({first ? ShapesOfPair{i, j} : ShapesOfPair{j, i}, apart});
+      const uint32_t of_few = few.first + i, of_many = many.first + j;
+      out.push_back({first ? ShapesOfPair{of_few, of_many} : ShapesOfPair{of_many, of_few}, apart});
     });
   });
   std::ranges::sort(out, {}, &ShapesNear::shapes);

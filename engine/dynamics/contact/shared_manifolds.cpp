@@ -114,6 +114,7 @@ class Sharing {
         join(found.manifolds[i], at);
       } else {
         out.push_back(found.manifolds[i]);
+        out.back().part += mark_of(at);
         shapes.push_back(at);
       }
     }

@@ -73,7 +73,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
     manifolds.clear();
     find_manifolds(s, pair, narrow_phase, hierarchy, manifolds);
     const CombinedMaterial material = combine(s.sa.material, s.sb.material);
-    Continued continued(bodies, known, {pair.a.body, pair.b.body, pair.a.shape, pair.b.shape, 0});
+    Continued continued(bodies, known, {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, 0});
     const size_t first = out.size();
     const double limit =
         accept_overlap && continued.none() ? tolerances::no_limit : continued.offset();
@@ -83,7 +83,7 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
         if (too_deep(p, pair.gap, limit)) continue;
         charge_work(prices::contact);
         EventContact& c = out.emplace_back();
-        c.key = {pair.a.body, pair.b.body, pair.a.shape, pair.b.shape, m.part};
+        c.key = {pair.a.body, pair.a.shape, pair.b.body, pair.b.shape, m.part};
         c.feature = p.feature;
         c.towards_b = m.normal;
         c.friction = material.friction;

@@ -36,7 +36,6 @@ Status RealtimeTick::find_pairs(double part) {
   broad_phase.use_threads(&crew);
   broad_phase.set_owners(proxies.owners);
   broad_phase.find_pairs(proxies.proxies, proxies.news, pairs);
-  join_by_body(proxies, pairs);
   apart.apply(proxies, pairs);
   report.bounds_tested += broad_phase.stats().tested;
   report.pairs_found += broad_phase.stats().found;
