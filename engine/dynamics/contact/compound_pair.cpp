@@ -27,6 +27,27 @@ bool planes_of(const PairSide& side, uint32_t shape) {
   return side.planes || (side.several && made_of_planes(*side.several->shapes[shape].shape));
 }
 
+/// One of the shapes of a whole body, as shape_side makes it but for its material.
+PairSide shape_of(const PairSide& whole, uint32_t shape, double h) {
+  const BodyShape& of_body = whole.several->shapes[shape];
+  PairSide side = whole;
+  side.several = nullptr;
+  side.shape_pose = whole.body_pose * of_body.pose;
+  side.shape_radius = of_body.shape->bounding_radius();
+  side.shape = of_body.shape.get();
+  side.shape_index = shape;
+  side.polyhedral = whole.polyhedral || side.shape->polyhedral() != nullptr;
+  side.planes = whole.planes || made_of_planes(*side.shape);
+  side.mesh = side.shape->is_mesh();
+  side.sphere = side.shape->is_ball();
+  if (side.dynamic) {
+    const ShapeTurning turning = shape_turning(*whole.several, of_body, h);
+    side.end_velocity += turning.velocity;
+    side.turning = turning.reach;
+  }
+  return side;
+}
+
 /// Memory for one pair at a time.
 struct Memory {
   PairSide a, b;  ///< the shapes that were asked for last
@@ -68,7 +89,7 @@ const PairSide& CompoundPair::side_b(const CachedShapes& piece) {
 const PairSide& CompoundPair::side_of(const PairSide& whole, uint32_t shape, uint32_t& named,
                                       PairSide& side) const {
   if (!whole.several) return whole;
-  if (shape != named) side = shape_side(finder_.bodies, {whole.body, shape}, finder_.tick);
+  if (shape != named) side = shape_of(whole, shape, finder_.tick.h);
   named = shape;
   return side;
 }
@@ -195,8 +216,9 @@ bool CompoundPair::look_at_those_apart(std::span<CachedShapes> pieces) {
   bool touch = false;
   for (CachedShapes& piece : pieces) {
     if (piece.touch) continue;
-    if (still_seen(piece)) {
-      piece.margin -= moved(piece);
+    const double left = piece.margin - moved(piece);
+    if (left >= reach_ || left >= reach_of(piece)) {
+      piece.margin = left;
       piece.relative = now_;
       continue;
     }

@@ -115,7 +115,8 @@ double find_shape_pairs(const SideShapes& a, const SideShapes& b, double reach,
       if (!near_surface(*s.shape, there, t, reach) ||
           !near_surface(*t.shape, in_few * t.pose, s, reach))
         return;
-      const double apart = many.tree ? boxes_apart(box, t.shape->bounds(t.pose)) : 0;
+      const double between = (there.x - t.pose.x).norm();
+      const double apart = std::max(0.0, between - (s.shape->bounding_radius() + t.shape->bounding_radius()));
       const uint32_t of_few = few.first + i, of_many = many.first + j;
       out.push_back({first ? ShapesOfPair{of_few, of_many} : ShapesOfPair{of_many, of_few}, apart});
     });

@@ -6,10 +6,10 @@
 #include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <limits>
-#include <numeric>
 
 namespace tumble {
 namespace {
@@ -26,7 +26,7 @@ bool same_surface(const Material& a, const Material& b) {
          a.surface_velocity == b.surface_velocity;
 }
 
-/// Points on a plane, and the convex polygon that they span.
+/// Points on a plane, and the convex polygon that they span. One at a time in a thread.
 class Spanned {
  public:
   /// Of points across a unit normal.
@@ -34,6 +34,7 @@ class Spanned {
     const Vec3 aside = std::abs(normal.x()) < 0.6 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
     u_ = normal.cross(aside).normalized();
     v_ = normal.cross(u_);
+    points_.clear();
   }
 
   void add(std::span<const ManifoldPoint> points) {
@@ -43,14 +44,14 @@ class Spanned {
   /// How far a point is outside, seen along the normal [m].
   double beyond(const Vec3& x) const {
     const Flat p = flat(x);
+    const size_t n = corners_.size();
+    const auto next = [&](size_t i) { return corners_[i + 1 < n ? i + 1 : 0]; };
+    bool inside = n > 2;
+    for (size_t i = 0; i < n && inside; ++i) inside = cross(corners_[i], next(i), p) >= 0;
+    if (inside) return 0;
     double least = std::numeric_limits<double>::infinity();
-    bool inside = corners_.size() > 2;
-    for (size_t i = 0; i < corners_.size(); ++i) {
-      const Flat &from = corners_[i], &to = corners_[(i + 1) % corners_.size()];
-      inside = inside && cross(from, to, p) >= 0;
-      least = std::min(least, distance(p, from, to));
-    }
-    return inside ? 0 : least;
+    for (size_t i = 0; i < n; ++i) least = std::min(least, distance(p, corners_[i], next(i)));
+    return least;
   }
 
  private:
@@ -87,8 +88,14 @@ class Spanned {
     }
   }
 
+  /// Memory that is used again.
+  static std::vector<Flat>& memory(int which) {
+    static thread_local std::array<std::vector<Flat>, 2> lists;
+    return lists[size_t(which)];
+  }
+
   Vec3 u_, v_;
-  std::vector<Flat> points_, corners_;
+  std::vector<Flat>&points_ = memory(0), &corners_ = memory(1);
 };
 
 /// Manifolds that become one.
@@ -105,10 +112,10 @@ class Sharing {
 
   void run(const ShapeManifolds& found, std::vector<Manifold>& out,
            std::vector<ShapesOfPair>& shapes) {
-    static thread_local std::vector<uint32_t> order;
+    static thread_local std::vector<Deep> order;
     deepest_first(found.manifolds, order);
-    scale_ = 1e-3 * (margin_ - least_gap(found.manifolds[order[0]])) + 1e-12;
-    for (const uint32_t i : order) {
+    scale_ = 1e-3 * (margin_ - order[0].gap) + 1e-12;
+    for (const auto& [gap, i] : order) {
       const ShapesOfPair& at = found.shapes[i];
       if (made_of_planes(*a_.shapes[at.a].shape) && made_of_planes(*b_.shapes[at.b].shape)) {
         join(found.manifolds[i], at);
@@ -127,10 +134,16 @@ class Sharing {
     static thread_local std::vector<Group> memory;
     return memory;
   }
-  static void deepest_first(std::span<const Manifold> manifolds, std::vector<uint32_t>& order) {
-    order.resize(manifolds.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, [&](uint32_t i) { return least_gap(manifolds[i]); });
+  /// A manifold by its place, and its least gap.
+  struct Deep {
+    double gap;
+    uint32_t place;
+    friend auto operator<=>(const Deep&, const Deep&) = default;
+  };
+  static void deepest_first(std::span<const Manifold> manifolds, std::vector<Deep>& order) {
+    order.clear();
+    for (uint32_t i = 0; i < manifolds.size(); ++i) order.push_back({least_gap(manifolds[i]), i});
+    std::ranges::sort(order, [](const Deep& a, const Deep& b) { return a < b; });
   }
 
   bool alike(const ShapesOfPair& p, const ShapesOfPair& q) const {
