@@ -3,6 +3,7 @@
 #include "engine/collision/mesh_pairs/mesh_surface.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/dynamics/bodies/whole_body.hpp"
+#include "engine/dynamics/contact/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +27,11 @@ void for_shapes_in(const SideShapes& side, const Aabb& box, const F& f) {
 /// Whether a box in the frame of a mesh meets a leaf of its tree.
 bool meets_leaf(const MeshSurface& mesh, const Aabb& box) {
   const AabbTree& tree = *mesh.tree;
-  const Aabb at = Aabb{box.min - tree.origin(), box.max - tree.origin()}.inflated(1e-6 * mesh.size);
+  const Aabb at = Aabb{box.min - tree.origin(), box.max - tree.origin()}.inflated(
+      tolerances::leaf_of_size * mesh.size);
   static thread_local std::vector<uint32_t> waiting;
-  waiting.assign(1, 0);
+  waiting.clear();
+  waiting.push_back(0);
   while (!waiting.empty()) {
     const uint32_t i = waiting.back();
     waiting.pop_back();
@@ -116,7 +119,8 @@ double find_shape_pairs(const SideShapes& a, const SideShapes& b, double reach,
           !near_surface(*t.shape, in_few * t.pose, s, reach))
         return;
       const double between = (there.x - t.pose.x).norm();
-      const double apart = std::max(0.0, between - (s.shape->bounding_radius() + t.shape->bounding_radius()));
+      const double radii = s.shape->bounding_radius() + t.shape->bounding_radius();
+      const double apart = std::max(0.0, between - radii);
       const uint32_t of_few = few.first + i, of_many = many.first + j;
       out.push_back({first ? ShapesOfPair{of_few, of_many} : ShapesOfPair{of_many, of_few}, apart});
     });

@@ -18,7 +18,7 @@ struct SideShapes {
 /// Of the body as a whole, or of one of its shapes.
 SideShapes side_shapes(const RigidBody& body, uint32_t shape);
 
-/// Two shapes, and how far their bounds are apart at least [m].
+/// Two shapes, and how far the balls about them are apart at least [m].
 struct ShapesNear {
   ShapesOfPair shapes;
   double apart = 0;

@@ -114,7 +114,7 @@ class Sharing {
            std::vector<ShapesOfPair>& shapes) {
     static thread_local std::vector<Deep> order;
     deepest_first(found.manifolds, order);
-    scale_ = 1e-3 * (margin_ - order[0].gap) + 1e-12;
+    scale_ = tolerances::least_weight * (margin_ - order[0].gap) + tolerances::least_depth;
     for (const auto& [gap, i] : order) {
       const ShapesOfPair& at = found.shapes[i];
       if (made_of_planes(*a_.shapes[at.a].shape) && made_of_planes(*b_.shapes[at.b].shape)) {

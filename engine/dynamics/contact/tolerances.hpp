@@ -16,6 +16,15 @@ inline constexpr double triangles_of_margin = 0.25;
 /// beside a margin [-]: the list is made anew when the bodies have moved by what it reaches beyond.
 inline constexpr double list_of_reach = 2;
 
+/// What a box is widened by before it is looked for among the single-precision leaves of a mesh's
+/// tree, of the mesh's size [-].
+inline constexpr double leaf_of_size = 1e-6;
+
+/// What a point at the margin weighs in the mean of the normals of a shared manifold, of what the
+/// deepest does [-]: no mean is of nothing.
+inline constexpr double least_weight = 1e-3;
+/// The same where all points are at the margin [m].
+inline constexpr double least_depth = 1e-12;
 /// Cosine of the greatest angle (10 degrees) between the normals of manifolds of two bodies that
 /// share their points [-]; the same as of patches of meshes.
 inline constexpr double shared_normal = 0.985;
