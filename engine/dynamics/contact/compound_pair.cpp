@@ -23,7 +23,7 @@ double radius_of(const PairSide& side, uint32_t shape) {
   return side.several ? side.several->shapes[shape].shape->bounding_radius() : side.shape_radius;
 }
 
-bool planes_of(const PairSide& side, uint32_t shape) {
+bool flat_surface(const PairSide& side, uint32_t shape) {
   return side.planes || (side.several && made_of_planes(*side.several->shapes[shape].shape));
 }
 
@@ -152,7 +152,8 @@ bool CompoundPair::find_whether_they_hold() {
     for (const ContactPoint& p : c.used())
       if (motion.shift(in_large.point(first ? p.anchor_a : p.anchor_b)) > tolerance) return false;
   return std::ranges::all_of(history_.pieces, [this](const CachedShapes& p) {
-    return !p.touch || (planes_of(a_, p.shapes.a) && planes_of(b_, p.shapes.b) && still_seen(p));
+    return !p.touch ||
+           (flat_surface(a_, p.shapes.a) && flat_surface(b_, p.shapes.b) && still_seen(p));
   });
 }
 

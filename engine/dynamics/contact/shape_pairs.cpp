@@ -60,7 +60,7 @@ double boxes_apart(const Aabb& a, const Aabb& b) {
 }
 
 /// Bounds of all shapes of a side where its body is at `pose`.
-Aabb bounds_of(const SideShapes& side, const Pose& pose) {
+Aabb side_bounds(const SideShapes& side, const Pose& pose) {
   if (side.tree) return whole_bounds(*side.tree, pose);
   return side.shapes[0].shape->bounds(pose * side.shapes[0].pose);
 }
@@ -68,8 +68,8 @@ Aabb bounds_of(const SideShapes& side, const Pose& pose) {
 /// How far the boxes about two sides are apart at least, by the directions of the boxes [m].
 double sides_apart(const SideShapes& a, const SideShapes& b) {
   const auto beyond = [](const SideShapes& one, const SideShapes& other) {
-    const Aabb of_other = bounds_of(other, one.body.pose.inverse() * other.body.pose);
-    return boxes_apart(bounds_of(one, Pose()), of_other);
+    const Aabb of_other = side_bounds(other, one.body.pose.inverse() * other.body.pose);
+    return boxes_apart(side_bounds(one, Pose()), of_other);
   };
   return std::max(beyond(a, b), beyond(b, a));
 }
@@ -109,7 +109,7 @@ double find_shape_pairs(const SideShapes& a, const SideShapes& b, double reach,
   const bool first = a.shapes.size() <= b.shapes.size();
   const SideShapes &few = first ? a : b, &many = first ? b : a;
   const Pose in_few = few.body.pose.inverse() * many.body.pose, in_many = in_few.inverse();
-  for_shapes_in(few, bounds_of(many, in_few).inflated(reach), [&](uint32_t i) {
+  for_shapes_in(few, side_bounds(many, in_few).inflated(reach), [&](uint32_t i) {
     const BodyShape& s = few.shapes[i];
     const Pose there = in_many * s.pose;
     const Aabb box = many.tree ? s.shape->bounds(there) : Aabb();

@@ -22,7 +22,7 @@ ContactPoint point_of(const EventContact& c, const ElementGap& g,
 }
 
 /// As contacts of the time stepper are named, which pairs some bodies as wholes.
-ContactKey key_of(const EventContact& c, std::span<const RigidBody> bodies) {
+ContactKey name_of_pair(const EventContact& c, std::span<const RigidBody> bodies) {
   const bool whole_a = bodies[c.key.body_a].tree != nullptr,
              whole_b = bodies[c.key.body_b].tree != nullptr;
   ContactKey key = c.key;
@@ -41,7 +41,7 @@ std::vector<Contact> contact_list(std::span<const EventContact> contacts,
     const ElementGap g = gap_now(c, bodies);
     if (!c.closed && c.impulse.isZero(0) && c.room(g) > tolerances::touch_distance) continue;
     const ShapesOfPair shapes{c.key.shape_a, c.key.shape_b};
-    const ContactKey key = key_of(c, bodies);
+    const ContactKey key = name_of_pair(c, bodies);
     if (out.empty() || out.back().key != key || out.back().shapes != shapes ||
         out.back().count == 4) {
       Contact& made = out.emplace_back();
