@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -19,6 +20,9 @@ class BoundsTree {
  public:
   BoundsTree() = default;
   explicit BoundsTree(std::span<const Aabb> bounds, Crew* crew = nullptr);
+
+  /// Of all members; infinite where one of them is.
+  Aabb bounds() const;
 
   /// The bounds that a box of half extents `half` (>= 0) meets on its way along the ray for t in
   /// [0, t_max]; with half zero, those that the ray meets. The nearer of two branches first.
@@ -94,6 +98,12 @@ class BoundsTree {
   std::vector<uint32_t> beside_;  ///< of infinite bounds
   double reach_ = 0;              ///< largest coordinate of the members [m]
 };
+
+inline Aabb BoundsTree::bounds() const {
+  if (beside_.empty()) return nodes_.empty() ? Aabb() : nodes_[0].box;
+  const Vec3 everywhere = Vec3::Constant(std::numeric_limits<double>::infinity());
+  return {-everywhere, everywhere};
+}
 
 template <class Meet, class Visit>
 void BoundsTree::walk(double limit, const Meet& meet, const Visit& visit) const {

@@ -22,6 +22,8 @@ ContactCertificate realtime_certificate(const Contact& contact, int i,
   const RigidBody &a = bodies[contact.key.body_a], &b = bodies[contact.key.body_b];
   ContactCertificate c;
   c.key = contact.key;
+  c.key.shape_a = contact.shapes.a;
+  c.key.shape_b = contact.shapes.b;
   c.feature = point.feature;
   c.x_world = contact_position(contact, i, bodies);
   c.normal = contact.normal;

@@ -12,8 +12,9 @@ namespace {
 
 constexpr uint32_t version = 1;
 /// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
-/// 5: rolling and torsional friction. 6: no patch against spinning.
-constexpr uint32_t contacts_version = 6;
+/// 5: rolling and torsional friction. 6: no patch against spinning. 7: of whole bodies where they
+/// have several shapes.
+constexpr uint32_t contacts_version = 7;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
 /// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains.
 constexpr uint32_t particles_version = 7;

@@ -38,16 +38,16 @@ struct Found {
   }
 };
 
+const SideTick tick{Vec3::Zero(), 1.0 / 60, 0.02};
+
 std::array<PairSide, 2> sides_of(std::span<const RigidBody> bodies) {
-  const auto side = [&](uint32_t body) {
-    return pair_side(bodies, {body, 0}, Vec3::Zero(), 1.0 / 60, 0.02);
-  };
+  const auto side = [&](uint32_t body) { return pair_side(bodies, {body, 0}, tick); };
   return {side(0), side(1)};
 }
 
 Found find(std::span<const RigidBody> bodies, const Found* before) {
   const std::array<PairSide, 2> sides = sides_of(bodies);
-  const PairContacts finder{sides, 1.0 / 60};
+  const PairContacts finder{sides, bodies, tick};
   PairHistory history;
   if (before) history = {before->contacts, before->seen.data()};
   const ProxyPair pair{0, 1};
@@ -57,7 +57,7 @@ Found find(std::span<const RigidBody> bodies, const Found* before) {
     Sights sights;
     finder.look(pair, history, sights);
     out.contacts.resize(sights.manifolds.size());
-    finder.make(pair, history.contacts, sights.manifolds, out.contacts);
+    finder.make(pair, history.contacts, sights.manifolds, sights.shapes, out.contacts);
     out.seen = sights.seen;
     return out;
   }

@@ -147,11 +147,11 @@ struct Both {
     for (uint32_t body = 0; body < body_count; ++body)
       CHECK(resting.holds(body) == model.holds(body));
     ContactKnowledge all;
-    resting.for_piles([&](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
-      CHECK(std::ranges::is_sorted(contacts, {}, &Contact::key));
-      CHECK(std::ranges::is_sorted(seen, {}, &CachedPair::pair));
-      all.contacts.insert(all.contacts.end(), contacts.begin(), contacts.end());
-      all.seen.insert(all.seen.end(), seen.begin(), seen.end());
+    resting.for_piles([&](const ContactKnowledge& pile) {
+      CHECK(std::ranges::is_sorted(pile.contacts, {}, &Contact::key));
+      CHECK(std::ranges::is_sorted(pile.seen, {}, &CachedPair::pair));
+      CHECK(std::is_sorted(pile.pieces.begin(), pile.pieces.end()));
+      all.append(pile);
     });
     CHECK(keys(all) == keys(model.known));
   }

@@ -75,9 +75,10 @@ TEST_CASE("no point leaves what turning is said to do to its shape, and bounds h
     const RigidBody body = spinning(r, std::pow(10, r.uniform(-3, 1)));
     ProxySet proxies;
     update_proxies(std::span(&body, 1), Vec3::Zero(), h, 0, proxies);
+    REQUIRE(proxies.proxies.size() == 1);
+    const Aabb bounds = proxies.proxies[0].bounds.inflated(1e-12);
     for (size_t s = 0; s < body.shapes.size(); ++s) {
       const ShapeTurning turning = shape_turning(body, body.shapes[s], h);
-      const Aabb bounds = proxies.proxies[s].bounds.inflated(1e-12);
       double farthest = 0, travel = 0;
       for (const Vec3& x : corners_of(body.shapes[s])) {
         for (int i = 0; i <= 40; ++i) {
@@ -125,7 +126,7 @@ TEST_CASE("a shape moves against another by no more than is said, wherever it is
     std::array<RigidBody, 2> bodies{spinning(r, 0.02), spinning(r, 0.02)};
     const auto side = [&](uint32_t i) {
       const auto last = uint32_t(bodies[i].shapes.size()) - 1;
-      return pair_side(bodies, {i, last}, Vec3::Zero(), h, 0.02);
+      return shape_side(bodies, {i, last}, {Vec3::Zero(), h, 0.02});
     };
     const PairSide a = side(0), b = side(1);
     const CachedPair seen = look_at({}, a, b, 1);

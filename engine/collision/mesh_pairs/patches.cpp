@@ -15,21 +15,6 @@ constexpr size_t max_patches = 16;
 /// Cells along the side of the octahedral map of directions; odd, so that the axes are mid-cell.
 constexpr double cells = 15;
 
-/// The cell of a direction on the octahedral map (Cigolle et al. 2014), y up.
-uint64_t direction_cell(const Vec3& n) {
-  const double sum = n.cwiseAbs().sum();
-  double u = n.x() / sum, v = n.z() / sum;
-  if (n.y() < 0) {
-    const double folded = (1 - std::abs(v)) * (u < 0 ? -1.0 : 1.0);
-    v = (1 - std::abs(u)) * (v < 0 ? -1.0 : 1.0);
-    u = folded;
-  }
-  const auto cell = [](double x) {
-    return uint64_t(std::clamp(std::floor((x + 1) * 0.5 * cells), 0.0, cells - 1));
-  };
-  return 1 + cell(u) * uint64_t(cells) + cell(v);
-}
-
 struct Patch {
   Vec3 seed;
   Vec3 sum = Vec3::Zero();
@@ -45,6 +30,20 @@ void add(Patch& patch, const FeatureContact& c, double margin, double depth_scal
 }
 
 }  // namespace
+
+uint64_t direction_cell(const Vec3& n) {
+  const double sum = n.cwiseAbs().sum();
+  double u = n.x() / sum, v = n.z() / sum;
+  if (n.y() < 0) {
+    const double folded = (1 - std::abs(v)) * (u < 0 ? -1.0 : 1.0);
+    v = (1 - std::abs(u)) * (v < 0 ? -1.0 : 1.0);
+    u = folded;
+  }
+  const auto cell = [](double x) {
+    return uint64_t(std::clamp(std::floor((x + 1) * 0.5 * cells), 0.0, cells - 1));
+  };
+  return 1 + cell(u) * uint64_t(cells) + cell(v);
+}
 
 void emit_patches(const ShapePair& pair, std::vector<FeatureContact>& contacts,
                   std::vector<Manifold>& out) {
@@ -83,7 +82,7 @@ void emit_patches(const ShapePair& pair, std::vector<FeatureContact>& contacts,
     const Vec3 normal = patches[i].sum.normalized();
     uint64_t part = direction_cell(normal);
     for (size_t j = first; j < out.size(); ++j)
-      if (out[j].part == part) part += 1024;  // two patches in one cell
+      if (out[j].part == part) part += patches_of_cell;
     emit_nearest(pair, patches[i].points, normal, part, out);
   }
 }

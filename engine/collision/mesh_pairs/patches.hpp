@@ -11,6 +11,12 @@ struct FeatureContact {
   uint64_t key;  ///< of the two features
 };
 
+/// The cell of a direction on the octahedral map (Cigolle et al. 2014), y up: a number from 1 on
+/// below patches_of_cell.
+uint64_t direction_cell(const Vec3& n);
+/// Added to Manifold::part where several patches are in one cell.
+constexpr uint64_t patches_of_cell = 1024;
+
 /// Gathers contacts with nearly the same normal into manifolds of at most four points each, deepest
 /// first, and appends them. Each manifold's part is its normal's place on a coarse grid of world
 /// directions, so that a thing at rest or rolling keeps it. Sorts `contacts`.

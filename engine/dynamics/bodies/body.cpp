@@ -206,6 +206,12 @@ Result<std::shared_ptr<const std::vector<DrawnShape>>> drawn_shapes(const BodyDe
   return std::shared_ptr<const std::vector<DrawnShape>>(std::move(out));
 }
 
+std::shared_ptr<const BoundsTree> tree_of(std::span<const BodyShape> shapes) {
+  std::vector<Aabb> bounds;
+  for (const BodyShape& s : shapes) bounds.push_back(s.shape->bounds(s.pose));
+  return std::make_shared<const BoundsTree>(bounds);
+}
+
 }  // namespace
 
 Result<RigidBody> make_body(const BodyDef& def, ShapeFactory make) {
@@ -243,6 +249,7 @@ Result<RigidBody> make_body(const BodyDef& def, ShapeFactory make) {
     body.bounding_radius =
         std::max(body.bounding_radius, s.pose.x.norm() + s.shape->bounding_radius());
   }
+  if (body.dynamic() && body.shapes.size() > 1) body.tree = tree_of(body.shapes);
   if (body.type != BodyType::fixed) body.inner_radius = inner_radius_of(body.shapes);
   const Quat q = unit(def.pose.q);
   body.pose = {def.pose.x + q * body.centre_body, q};

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/collision/bounds_tree.hpp"
 #include "engine/collision/shape.hpp"
 #include "engine/core/function_ref.hpp"
 #include "engine/core/handle.hpp"
@@ -166,6 +167,10 @@ struct RigidBody {
   double bounding_radius = 0;       ///< about the centre of mass [m]
   double inner_radius = 0;          ///< inner_radius_of; 0 of fixed ones [m]
   std::vector<BodyShape> shapes;
+  /// Over the bounds of the shapes of a dynamic body that has several, in the frame of `pose`: it
+  /// is paired with others as a whole. Null of others, of which each shape is: they may be hollow,
+  /// and hold all that moves.
+  std::shared_ptr<const BoundsTree> tree;
   std::shared_ptr<const std::vector<DrawnShape>> drawn;  ///< null: the shapes
 
   bool dynamic() const { return type == BodyType::dynamic; }

@@ -3,6 +3,7 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/dynamics/bodies/tolerances.hpp"
+#include "engine/dynamics/bodies/whole_body.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,9 +49,9 @@ struct Tick {
   double h, margin;
 };
 
-/// Puts the proxies of a body from `out` on; whether its tick may have to be taken in parts.
-bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPhaseProxy* out,
-                 ShapeRef* refs) {
+/// Puts the proxies of a body to their place; whether its tick may have to be taken in
+/// parts.
+bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, ProxySet& out) {
   const bool moving = is_active(body);
   const double h = tick.h;
   Vec3 step = Vec3::Zero();
@@ -62,24 +63,33 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, BroadPh
   }
   const double wide = contact_margin(body, tick.margin);
   bool mesh = false;
-  for (uint32_t s = 0; s < body.shapes.size(); ++s) {
-    const Shape& shape = *body.shapes[s].shape;
-    mesh |= shape.is_mesh();
-    const Aabb now = shape.bounds(body.pose * body.shapes[s].pose);
-    Aabb bounds = now;
-    const ShapeTurning turning =
-        moving ? shape_turning(body, body.shapes[s], h) : ShapeTurning{Vec3::Zero(), 0};
+  for (const BodyShape& s : body.shapes) mesh |= s.shape->is_mesh();
+  const uint32_t first = out.first[slot];
+  const auto put = [&](uint32_t s, Aabb bounds, const ShapeTurning& turning) {
     const Vec3 way = step + h * turning.velocity;
     bounds.min += way.cwiseMin(Vec3::Zero());
     bounds.max += way.cwiseMax(Vec3::Zero());
-    out[s] = {bounds.inflated(wide + turning.reach), moving};
-    refs[s] = {slot, s};
+    out.proxies[first + s] = {bounds.inflated(wide + turning.reach), moving};
+    out.refs[first + s] = {slot, s};
+  };
+  if (body.tree) {
+    put(0, whole_bounds(*body.tree, body.pose),
+        {Vec3::Zero(), moving ? whole_turning(body, h) : 0});
+  } else {
+    for (uint32_t s = 0; s < body.shapes.size(); ++s)
+      put(s, body.shapes[s].shape->bounds(body.pose * body.shapes[s].pose),
+          moving ? shape_turning(body, body.shapes[s], h) : ShapeTurning{Vec3::Zero(), 0});
   }
   return (mesh || body.looks_far) && body.dynamic();
 }
 
+/// How many proxies a body has.
+uint32_t proxies_for(const RigidBody& body) {
+  return body.tree ? 1 : uint32_t(body.shapes.size());
+}
+
 /// Whether a body has several, told by where proxies begin.
-bool several_shapes(const ProxySet& set) {
+bool several_of_one(const ProxySet& set) {
   return std::ranges::adjacent_find(set.first, [](uint32_t begin, uint32_t end) {
            return end - begin > 1;
          }) != set.first.end();
@@ -92,32 +102,39 @@ void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
     for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
 }
 
-}  // namespace
-
-void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew) {
+/// Says where proxies are, of which a body has count(body).
+template <class Count>
+void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew,
+                    const Count& count) {
   out.first.resize(bodies.size() + 1);
   for_chunks(crew, bodies.size(), [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       prefetch<1>(&bodies[std::min(i + tolerances::bodies_ahead, last - 1)].shapes);
-      out.first[i] = uint32_t(bodies[i].shapes.size());
+      out.first[i] = count(bodies[i]);
     }
   });
   out.first.back() = 0;
   uint32_t total = 0;
   for (uint32_t& begin : out.first) begin = std::exchange(total, total + begin);
   out.owners.clear();
-  if (several_shapes(out)) {
+  if (several_of_one(out)) {
     out.owners.reserve(total);
     for (uint32_t i = 0; i < bodies.size(); ++i)
-      out.owners.insert(out.owners.end(), out.shapes_of(i), i);
+      out.owners.insert(out.owners.end(), out.proxies_of(i), i);
   }
   out.proxies.resize(total);
   out.refs.resize(total);
 }
 
+}  // namespace
+
+void number_shape_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew) {
+  number_proxies(bodies, out, crew, [](const RigidBody& b) { return uint32_t(b.shapes.size()); });
+}
+
 void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, double h, double margin,
                     ProxySet& out, Crew* crew) {
-  number_proxies(bodies, out, crew);
+  number_proxies(bodies, out, crew, &proxies_for);
   std::array<bool, chunk_count> meshes{};
   for_chunks(crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
     constexpr size_t ahead = tolerances::bodies_ahead;
@@ -125,9 +142,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Vec3& gravity, doub
     for (size_t i = first; i < last; ++i) {
       prefetch_ahead<sizeof(RigidBody)>(bodies, i, 2 * ahead);
       if (i + ahead < last) prefetch<sizeof(BodyShape)>(bodies[i + ahead].shapes.data());
-      const uint32_t at = out.first[i];
-      mesh |= put_proxies(bodies[i], uint32_t(i), {gravity, h, margin}, out.proxies.data() + at,
-                          out.refs.data() + at);
+      mesh |= put_proxies(bodies[i], uint32_t(i), {gravity, h, margin}, out);
     }
     meshes[chunk] = mesh;
   });
@@ -145,9 +160,7 @@ void update_proxies(std::span<const RigidBody> bodies, const Roster& roster, con
       for (size_t k = first; k < last; ++k) {
         prefetch<sizeof(RigidBody)>(&bodies[slots[std::min(k + 2 * ahead, last - 1)]]);
         prefetch<sizeof(BodyShape)>(bodies[slots[std::min(k + ahead, last - 1)]].shapes.data());
-        const uint32_t at = out.first[slots[k]];
-        put_proxies(bodies[slots[k]], slots[k], {gravity, h, margin}, out.proxies.data() + at,
-                    out.refs.data() + at);
+        put_proxies(bodies[slots[k]], slots[k], {gravity, h, margin}, out);
       }
     });
   }
@@ -166,8 +179,8 @@ std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPa
     for (const uint32_t shape : {p.a, p.b}) ++count[proxies.refs[shape].body];
   return Crowd{uint32_t(std::ranges::max_element(count) - count.begin()),
                Error{ErrorCode::numeric,
-                     fmt::format("{} shapes lie so densely that {} pairs of them are near each "
-                                 "other, more than a tick can hold",
+                     fmt::format("{} bounds lie so densely that {} pairs of them overlap, more "
+                                 "than a tick can hold",
                                  proxies.proxies.size(), pairs.size()),
                      {},
                      "place them apart"}};

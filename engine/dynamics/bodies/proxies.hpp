@@ -18,18 +18,19 @@ struct ShapeRef {
   uint32_t shape = 0;  ///< index into RigidBody::shapes
 };
 
-/// The proxies of all live shapes, ordered by body slot and shape; refs[i] says whose proxies[i]
-/// is.
+/// Proxies of all live bodies, ordered by body slot and shape: one about a body that is paired as a
+/// whole (RigidBody::tree), or one for each shape. refs[i] says whose proxies[i] is; of a whole
+/// body the shape is 0.
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
   std::vector<uint32_t> first;   ///< by body slot: its first proxy; and the end
-  std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several shapes
+  std::vector<uint32_t> owners;  ///< by proxy its body; none where no body has several proxies
   ProxyNews news;                ///< of the last update
   /// false: no dynamic body has a triangle mesh or looks far, so that no tick has parts.
   bool may_need_parts = true;
 
-  uint32_t shapes_of(uint32_t body) const { return first[body + 1] - first[body]; }
+  uint32_t proxies_of(uint32_t body) const { return first[body + 1] - first[body]; }
 };
 
 /// How far apart two surfaces may be for a contact to be foreseen [m]: `margin`, less for small
@@ -51,8 +52,8 @@ struct ShapeTurning {
 };
 ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h);
 
-/// Makes room for the proxies of every body, and says where it is.
-void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
+/// Makes room for a proxy of every shape, of whole bodies too, and says where it is.
+void number_shape_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew = nullptr);
 
 /// Fills the proxies: bounds over the tick [0, h] in which a body moves by v + h a and turns by
 /// omega, widened by `margin`. A proxy is `moving` when its body seeks contacts.
@@ -69,7 +70,7 @@ struct Crowd {
   uint32_t slot;
   Error error;
 };
-/// Empty where a tick can hold the pairs of these shapes.
+/// Empty where a tick can hold these pairs.
 std::optional<Crowd> find_crowd(const ProxySet& proxies, std::span<const ProxyPair> pairs);
 
 }  // namespace tumble

@@ -7,28 +7,32 @@
 namespace tumble {
 namespace {
 
-/// The poses of the smaller of two shapes, of equal ones B, and of the larger.
+/// The poses of the smaller of two sides, and of the larger.
 struct TwoPoses {
   const Pose& small;
   const Pose& large;
   TwoPoses(const PairSide& a, const PairSide& b)
-      : small((a.shape_radius < b.shape_radius ? a : b).shape_pose),
-        large((a.shape_radius < b.shape_radius ? b : a).shape_pose) {}
+      : small((smaller_first(a, b) ? a : b).shape_pose),
+        large((smaller_first(a, b) ? b : a).shape_pose) {}
 
-  /// The smaller shape's place and orientation, seen from the larger.
+  /// The smaller side's place and orientation, seen from the larger.
   Vec3 place() const { return large.q.conjugate() * (small.x - large.x); }
   Quat orientation() const { return large.q.conjugate() * small.q; }
 };
 
 }  // namespace
 
+Pose relative_pose(const PairSide& a, const PairSide& b) {
+  const TwoPoses poses(a, b);
+  return {poses.place(), poses.orientation()};
+}
+
 double seen_tolerance(double margin) {
   return tolerances::carried_of_margin * margin;
 }
 
 CachedPair look_at(const ContactKey& pair, const PairSide& a, const PairSide& b, double margin) {
-  const TwoPoses poses(a, b);
-  return {pair, {poses.place(), poses.orientation()}, margin};
+  return {pair, relative_pose(a, b), margin};
 }
 
 double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b, double enough) {

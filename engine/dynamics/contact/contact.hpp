@@ -7,12 +7,13 @@
 #include <compare>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace tumble {
 
 /// What a contact is between; the order in which contacts are kept, summed and solved. body_a is
-/// the lower slot.
+/// the lower slot. Of a body that is paired as a whole (RigidBody::tree) the shape is 0.
 struct ContactKey {
   uint32_t body_a = 0, shape_a = 0;
   uint32_t body_b = 0, shape_b = 0;
@@ -20,6 +21,15 @@ struct ContactKey {
 
   friend auto operator<=>(const ContactKey&, const ContactKey&) = default;
 };
+
+/// Which shapes of two bodies, by their places in RigidBody::shapes.
+struct ShapesOfPair {
+  uint32_t a = 0, b = 0;
+  friend auto operator<=>(const ShapesOfPair&, const ShapesOfPair&) = default;
+};
+/// A number that tells what belongs to two shapes, features and parts, from what belongs to others
+/// of the same bodies.
+uint64_t mark_of(const ShapesOfPair& shapes);
 
 /// One point of a contact, with what the solver remembers from tick to tick.
 struct ContactPoint {
@@ -36,6 +46,7 @@ struct ContactPoint {
 /// What the points of a contact share.
 struct ContactHead {
   ContactKey key;
+  ShapesOfPair shapes;            ///< that touch; where several share the contact, the first
   Vec3 normal = Vec3::UnitY();    ///< unit, from A to B, world axes
   Vec3 normal_a = Vec3::UnitY();  ///< the same in A's axes, when the narrow phase looked
   double friction = 0;            ///< combined [-]
@@ -73,12 +84,28 @@ struct Contact : FewPoints<ContactHead, ContactPoint> {
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 
-/// Where two bodies were against each other when the narrow phase last looked at a pair of their
-/// shapes. While they hardly move, what it saw is carried along; that nothing was seen, too.
+/// Where two bodies were against each other when the narrow phase last looked at a pair of them.
+/// While they hardly move, what it saw is carried along; that nothing was seen, too.
 struct CachedPair {
-  ContactKey pair;    ///< part is 0
-  Pose relative;      ///< of the smaller shape's frame in the larger one's
-  double margin = 0;  ///< all gaps up to here were found; where none was, there is none [m]
+  ContactKey pair;  ///< part is 0
+  Pose relative;    ///< of the smaller side's frame (PairSide::shape_pose) in the larger one's
+  /// All gaps up to here were found; where none was, there is none. Of a pair with CachedShapes: of
+  /// all others of its shapes there is none [m].
+  double margin = 0;
+};
+
+/// The same of two shapes that are near each other, where a body of the pair has several.
+struct CachedShapes {
+  ContactKey pair;  ///< CachedPair::pair
+  ShapesOfPair shapes;
+  Pose relative;            ///< of the sides of the pair
+  double margin = 0;        ///< all gaps up to here were found, or there is none [m]
+  ClosestFeatures closest;  ///< where they touch: Manifold::closest
+  bool touch = false;       ///< gaps were found
+
+  friend bool operator<(const CachedShapes& s, const CachedShapes& t) {
+    return std::tie(s.pair, s.shapes) < std::tie(t.pair, t.shapes);
+  }
 };
 
 /// Midway between the surfaces at point i, world axes [m].
@@ -101,13 +128,15 @@ CombinedMaterial combine(const Side& a, const Side& b) {
 
 /// What is known of some pairs, each list sorted.
 struct ContactKnowledge {
-  std::vector<Contact> contacts;  ///< by key
-  std::vector<CachedPair> seen;   ///< by pair
+  std::vector<Contact> contacts;     ///< by key
+  std::vector<CachedPair> seen;      ///< by pair
+  std::vector<CachedShapes> pieces;  ///< by pair and shapes; pairs that `seen` has
 
   bool empty() const { return contacts.empty() && seen.empty(); }
   void clear() {
     contacts.clear();
     seen.clear();
+    pieces.clear();
   }
   void append(const ContactKnowledge& other);
   void sort();

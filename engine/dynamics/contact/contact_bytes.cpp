@@ -14,6 +14,15 @@ void read(ByteReader& in, Vec3& v) {
   in.raw(v.data(), 3 * sizeof(double));
 }
 
+void write_pose(ByteWriter& out, const Pose& pose) {
+  write(out, pose.x);
+  out.value(pose.q.coeffs());
+}
+void read_pose(ByteReader& in, Pose& pose) {
+  read(in, pose.x);
+  in.value(pose.q.coeffs());
+}
+
 /// The scalars and vectors of a point, in the order of their bytes.
 template <class Stream, class Point, class Scalar, class Vector>
 void members(Stream& s, Point& p, Scalar scalar, Vector vector) {
@@ -47,6 +56,8 @@ void ContactSet::save(ByteWriter& out) const {
     const Contact& c = *contact;
     pair_of(out, c.key);
     out.value(c.key.part);
+    out.value(c.shapes.a);
+    out.value(c.shapes.b);
     write(out, c.normal);
     write(out, c.normal_a);
     out.value(c.friction);
@@ -61,17 +72,29 @@ void ContactSet::save(ByteWriter& out) const {
     out.value(int32_t(c.count));
     for (int i = 0; i < c.count; ++i) members(out, c.points[size_t(i)], put, write);
   }
-  std::vector<CachedPair> seen = now_.seen;
-  resting_.for_piles([&seen](std::span<const Contact>, std::span<const CachedPair> looks) {
-    seen.insert(seen.end(), looks.begin(), looks.end());
+  ContactKnowledge known;
+  known.seen = now_.seen;
+  known.pieces = now_.pieces;
+  resting_.for_piles([&known](const ContactKnowledge& pile) {
+    known.seen.insert(known.seen.end(), pile.seen.begin(), pile.seen.end());
+    known.pieces.insert(known.pieces.end(), pile.pieces.begin(), pile.pieces.end());
   });
-  std::ranges::sort(seen, {}, &CachedPair::pair);
-  out.value(uint64_t(seen.size()));
-  for (const CachedPair& s : seen) {
+  known.sort();
+  out.value(uint64_t(known.seen.size()));
+  for (const CachedPair& s : known.seen) {
     pair_of(out, s.pair);
-    write(out, s.relative.x);
-    out.value(s.relative.q.coeffs());
+    write_pose(out, s.relative);
     out.value(s.margin);
+  }
+  out.value(uint64_t(known.pieces.size()));
+  for (const CachedShapes& s : known.pieces) {
+    pair_of(out, s.pair);
+    out.value(s.shapes.a);
+    out.value(s.shapes.b);
+    write_pose(out, s.relative);
+    out.value(s.margin);
+    for (const PolyhedronFeature& f : s.closest) out.value(f.kind), out.value(f.index);
+    out.value(uint8_t(s.touch));
   }
 }
 
@@ -82,6 +105,8 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     Contact c;
     pair_of(in, c.key);
     in.value(c.key.part);
+    in.value(c.shapes.a);
+    in.value(c.shapes.b);
     read(in, c.normal);
     read(in, c.normal_a);
     in.value(c.friction);
@@ -101,15 +126,30 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     for (int i = 0; i < c.count; ++i) members(in, c.points[size_t(i)], get, read);
     now_.contacts.push_back(c);
   }
+  const auto known = [&](const ContactKey& pair) {
+    if (pair.body_a >= body_slots || pair.body_b >= body_slots) in.fail();
+  };
   const auto looks = in.get<uint64_t>();
   for (uint64_t k = 0; k < looks && in.ok(); ++k) {
     CachedPair s;
     pair_of(in, s.pair);
-    read(in, s.relative.x);
-    in.value(s.relative.q.coeffs());
+    read_pose(in, s.relative);
     in.value(s.margin);
-    if (s.pair.body_a >= body_slots || s.pair.body_b >= body_slots) in.fail();
+    known(s.pair);
     now_.seen.push_back(s);
+  }
+  const auto pieces = in.get<uint64_t>();
+  for (uint64_t k = 0; k < pieces && in.ok(); ++k) {
+    CachedShapes s;
+    pair_of(in, s.pair);
+    in.value(s.shapes.a);
+    in.value(s.shapes.b);
+    read_pose(in, s.relative);
+    in.value(s.margin);
+    for (PolyhedronFeature& f : s.closest) in.value(f.kind), in.value(f.index);
+    s.touch = in.get<uint8_t>() != 0;
+    known(s.pair);
+    now_.pieces.push_back(s);
   }
   if (!in.ok()) clear();
   return in.ok();

@@ -1,9 +1,11 @@
 #include "engine/dynamics/contact/contact_set.hpp"
 
+#include "engine/collision/feature_key.hpp"
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
+#include "engine/dynamics/contact/compound_pair.hpp"
 #include "engine/dynamics/contact/pair_contacts.hpp"
 #include "engine/dynamics/contact/tolerances.hpp"
 
@@ -15,6 +17,10 @@
 #include <utility>
 
 namespace tumble {
+
+uint64_t mark_of(const ShapesOfPair& shapes) {
+  return mix_key(mix_key(0, shapes.a), shapes.b);
+}
 
 Vec3 contact_position(const Contact& contact, int i, std::span<const RigidBody> bodies) {
   const ContactPoint& p = contact.points[size_t(i)];
@@ -42,11 +48,13 @@ bool pair_less(const CachedPair& a, const CachedPair& b) {
 void ContactKnowledge::append(const ContactKnowledge& other) {
   contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());
   seen.insert(seen.end(), other.seen.begin(), other.seen.end());
+  pieces.insert(pieces.end(), other.pieces.begin(), other.pieces.end());
 }
 
 void ContactKnowledge::sort() {
   std::sort(contacts.begin(), contacts.end(), key_less);
   std::sort(seen.begin(), seen.end(), pair_less);
+  std::sort(pieces.begin(), pieces.end());
 }
 
 namespace {
@@ -60,6 +68,7 @@ void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledg
   out.clear();
   std::ranges::merge(a.contacts, b.contacts, std::back_inserter(out.contacts), key_less);
   std::ranges::merge(a.seen, b.seen, std::back_inserter(out.seen), pair_less);
+  std::ranges::merge(a.pieces, b.pieces, std::back_inserter(out.pieces), std::less());
 }
 
 /// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
@@ -76,16 +85,13 @@ bool same_pair(const ContactKey& a, const ContactKey& b) {
 /// Walks through what was known before along with the pairs, which come in the same order.
 class HistoryCursor {
  public:
-  HistoryCursor(std::span<const Contact> contacts, std::span<const CachedPair> seen,
-                const ContactKey& first)
-      : contacts_(contacts),
-        seen_(seen),
-        contact_(
-            std::lower_bound(contacts.begin(), contacts.end(), first,
-                             [](const Contact& c, const ContactKey& key) { return c.key < key; })),
-        look_(std::lower_bound(
-            seen.begin(), seen.end(), first,
-            [](const CachedPair& s, const ContactKey& key) { return s.pair < key; })) {}
+  HistoryCursor(const ContactKnowledge& known, const ContactKey& first)
+      : contacts_(known.contacts),
+        seen_(known.seen),
+        pieces_(known.pieces),
+        contact_(std::ranges::lower_bound(contacts_, first, {}, &Contact::key)),
+        look_(std::ranges::lower_bound(seen_, first, {}, &CachedPair::pair)),
+        piece_(std::ranges::lower_bound(pieces_, first, {}, &CachedShapes::pair)) {}
 
   PairHistory at(const ContactKey& pair) {
     while (contact_ != contacts_.end() && contact_->key < pair) ++contact_;
@@ -95,12 +101,21 @@ class HistoryCursor {
     const bool known = look_ != seen_.end() && same_pair(look_->pair, pair);
     return {{begin, contact_}, known ? &*look_ : nullptr};
   }
+  /// What is known of the shapes of a pair; asked for some, in order.
+  std::span<const CachedShapes> pieces_of(const ContactKey& pair) {
+    while (piece_ != pieces_.end() && piece_->pair < pair) ++piece_;
+    const auto begin = piece_;
+    while (piece_ != pieces_.end() && same_pair(piece_->pair, pair)) ++piece_;
+    return {begin, piece_};
+  }
 
  private:
   std::span<const Contact> contacts_;
   std::span<const CachedPair> seen_;
+  std::span<const CachedShapes> pieces_;
   std::span<const Contact>::iterator contact_;
   std::span<const CachedPair>::iterator look_;
+  std::span<const CachedShapes>::iterator piece_;
 };
 
 /// Whether any dynamic body does not seek contacts.
@@ -146,8 +161,8 @@ void ContactSet::go_back() {
 std::vector<const Contact*> ContactSet::resting() const {
   std::vector<const Contact*> out;
   out.reserve(resting_.contacts());
-  resting_.for_piles([&out](std::span<const Contact> contacts, std::span<const CachedPair>) {
-    for (const Contact& c : contacts) out.push_back(&c);
+  resting_.for_piles([&out](const ContactKnowledge& pile) {
+    for (const Contact& c : pile.contacts) out.push_back(&c);
   });
   std::ranges::sort(out, {}, &key_of);
   return out;
@@ -173,6 +188,7 @@ void ContactSet::assign(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen.clear();
+  now_.pieces.clear();
   resting_.drop();
 }
 
@@ -181,6 +197,7 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen = before.seen;
+  now_.pieces = before.pieces;
 }
 
 ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&)>& which) {
@@ -190,6 +207,7 @@ ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&
   now_.clear();
   for (const Contact& c : before.contacts) (which(c.key) ? out : now_).contacts.push_back(c);
   for (const CachedPair& s : before.seen) (which(s.pair) ? out : now_).seen.push_back(s);
+  for (const CachedShapes& s : before.pieces) (which(s.pair) ? out : now_).pieces.push_back(s);
   return out;
 }
 
@@ -202,26 +220,29 @@ void ContactSet::put_in(const ContactKnowledge& taken) {
 void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,
                             const PairContacts& finder, Chunk& out) {
   out.sources.clear();
-  out.sights.manifolds.clear();
-  out.sights.seen.clear();
+  out.sights.clear();
   out.contacts = out.looks = 0;
-  HistoryCursor history(old.contacts, old.seen, finder.key(pairs.front()));
+  HistoryCursor history(old, finder.key(pairs.front()));
   for (const ProxyPair& pair : pairs) {
     if (stop_requested()) break;
     const PairSide &a = finder.sides[pair.a], &b = finder.sides[pair.b];
     if (a.body == b.body || (!a.dynamic && !b.dynamic)) continue;
-    const PairHistory before = history.at(finder.key(pair));
+    PairHistory before = history.at(finder.key(pair));
     Source source{pair, before.contacts};
-    if (finder.knows(pair, before)) {
+    const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
+    if (in_pieces(a, b)) {
+      before.pieces = history.pieces_of(finder.key(pair));
+      source.carried = CompoundPair(finder, a, b, before).look(out.sights);
+    } else if (finder.knows(pair, before)) {
       source.look = before.seen;
-      source.contacts = uint32_t(before.contacts.size());
+      source.carried = true;
       source.looks = 1;
     } else {
-      const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
       finder.look(pair, before, out.sights);
-      source.contacts = uint32_t(out.sights.manifolds.size() - manifolds);
-      source.looks = uint32_t(out.sights.seen.size() - looks);
     }
+    source.contacts =
+        uint32_t(source.carried ? before.contacts.size() : out.sights.manifolds.size() - manifolds);
+    if (!source.look) source.looks = uint32_t(out.sights.seen.size() - looks);
     if (source.contacts + source.looks == 0) continue;
     out.contacts += source.contacts;
     out.looks += source.looks;
@@ -233,9 +254,11 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
 void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   chunk.stats = {};
   std::span<const Manifold> manifolds = chunk.sights.manifolds;
+  std::span<const ShapesOfPair> shapes = chunk.sights.shapes;
   auto look = chunk.sights.seen.begin();
   const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
+  std::ranges::copy(chunk.sights.pieces, now_.pieces.begin() + std::ptrdiff_t(chunk.first_piece));
   size_t at = 0;
   for (size_t k = 0; k < chunk.sources.size(); ++k) {
     constexpr size_t ahead = tolerances::pairs_ahead;
@@ -246,17 +269,22 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
       prefetch_to_write<sizeof(ContactHead) + sizeof(ContactPoint)>(&contacts[at + ahead]);
     const auto place = contacts.subspan(at, source.contacts);
     at += source.contacts;
-    if (source.look) {
-      ++chunk.stats.carried;
+    chunk.stats.carried += source.carried;
+    if (source.look)
       *seen++ = *source.look;
+    else
+      for (uint32_t i = 0; i < source.looks; ++i) *seen++ = *look++;
+    const PairSide &a = finder.sides[source.pair.a], &b = finder.sides[source.pair.b];
+    if (source.carried) {
       std::ranges::copy(source.before, place.begin());
-      for (Contact& c : place)
-        carry_along(c, finder.sides[source.pair.a], finder.sides[source.pair.b]);
+      for (Contact& c : place) carry_along(c, a, b);
       continue;
     }
-    finder.make(source.pair, source.before, manifolds.first(place.size()), place);
+    const size_t in_shapes = in_pieces(a, b) ? place.size() : 0;
+    finder.make(source.pair, source.before, manifolds.first(place.size()), shapes.first(in_shapes),
+                place);
     manifolds = manifolds.subspan(place.size());
-    for (uint32_t i = 0; i < source.looks; ++i) *seen++ = *look++;
+    shapes = shapes.subspan(in_shapes);
   }
   count_points(contacts, chunk.stats);
 }
@@ -271,6 +299,8 @@ void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody
     if (rest(c.key)) settled_.contacts.push_back(c);
   for (const CachedPair& s : old.seen)
     if (rest(s.pair)) settled_.seen.push_back(s);
+  for (const CachedShapes& s : old.pieces)
+    if (rest(s.pair)) settled_.pieces.push_back(s);
   if (!settled_.empty()) resting_.add(settled_, bodies);
 }
 
@@ -301,6 +331,9 @@ void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   std::erase_if(roused_.contacts, [&](const Contact& c) { return seeks(c.key); });
   std::erase_if(roused_.seen, [&](const CachedPair& s) {
     return seeks(s.pair) || std::binary_search(now_.seen.begin(), now_.seen.end(), s, pair_less);
+  });
+  std::erase_if(roused_.pieces, [&](const CachedShapes& s) {
+    return !std::ranges::binary_search(roused_.seen, s.pair, {}, &CachedPair::pair);
   });
   merge(now_, roused_, both_);
   std::swap(now_, both_);
@@ -337,7 +370,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
   for_chunks(&crew, few ? paired_.size() : sides_.size(), [&](size_t, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
       const size_t i = few ? paired_[k] : k;
-      sides_[i] = pair_side(bodies, proxies.refs[i], gravity, h, margin);
+      sides_[i] = pair_side(bodies, proxies.refs[i], {gravity, h, margin});
     }
   });
 }
@@ -367,22 +400,23 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
   if (roused) merge(kept, roused_, both_);
   const ContactKnowledge& old = roused ? both_ : kept;
   take_sides(bodies, proxies, pairs, gravity, h, margin, crew);
-  const PairContacts finder{sides_, h, narrow_phase, hierarchy};
+  const PairContacts finder{sides_, bodies, {gravity, h, margin}, narrow_phase, hierarchy};
   crew.each(tasks, [&](size_t c) {
     const size_t begin = c * per_chunk;
     const size_t here = std::min(pairs.size() - begin, per_chunk);
     find_chunk(old, pairs.subspan(begin, here), finder, chunks[c]);
   });
-  size_t contacts = 0, looks = 0;
+  size_t contacts = 0, looks = 0, pieces = 0;
   for (Chunk& chunk : chunks) {
     chunk.first_contact = std::exchange(contacts, contacts + chunk.contacts);
     chunk.first_look = std::exchange(looks, looks + chunk.looks);
+    chunk.first_piece = std::exchange(pieces, pieces + chunk.sights.pieces.size());
   }
   make_room(now_.contacts, contacts);
   make_room(now_.seen, looks);
+  make_room(now_.pieces, pieces);
   if (stop_requested()) {
-    now_.contacts.clear();
-    now_.seen.clear();
+    now_.clear();
     return {};
   }
   crew.each(tasks, [&](size_t c) {
@@ -417,11 +451,12 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
 
 void ContactSet::add_memory(MemoryUse& use) const {
   for (const ContactKnowledge* k : {&now_, &kept_, &old_, &settled_, &roused_, &both_})
-    use.contacts += heap_bytes(k->contacts, k->seen);
+    use.contacts += heap_bytes(k->contacts, k->seen, k->pieces);
   use.contacts += heap_bytes(sides_, paired_, chunks_);
   resting_.add_memory(use);
   for (const Chunk& c : chunks_)
-    use.contacts += heap_bytes(c.sources, c.sights.manifolds, c.sights.seen);
+    use.contacts +=
+        heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen, c.sights.pieces);
 }
 
 void ContactSet::remove_body(uint32_t body) {
@@ -430,9 +465,11 @@ void ContactSet::remove_body(uint32_t body) {
   merge_roused();
   std::erase_if(now_.contacts,
                 [body](const Contact& c) { return c.key.body_a == body || c.key.body_b == body; });
-  std::erase_if(now_.seen, [body](const CachedPair& s) {
+  const auto names = [body](const auto& s) {
     return s.pair.body_a == body || s.pair.body_b == body;
-  });
+  };
+  std::erase_if(now_.seen, names);
+  std::erase_if(now_.pieces, names);
 }
 
 }  // namespace tumble

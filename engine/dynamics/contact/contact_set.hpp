@@ -18,7 +18,7 @@
 namespace tumble {
 
 struct ContactUpdateStats {
-  uint64_t pairs = 0;     ///< pairs of shapes whose bounds overlap
+  uint64_t pairs = 0;     ///< pairs of shapes, or of whole bodies, whose bounds overlap
   uint64_t carried = 0;   ///< of them, those at which the narrow phase did not have to look again
   uint64_t contacts = 0;  ///< with at least one point
   uint64_t points = 0;
@@ -28,8 +28,17 @@ struct ContactUpdateStats {
 /// What the narrow phase saw of some pairs.
 struct Sights {
   std::vector<Manifold> manifolds;
+  std::vector<ShapesOfPair> shapes;  ///< of each manifold of pairs of which a side has several
   std::vector<CachedPair>
       seen;  ///< of pairs whose contacts may be carried along, or that are apart
+  std::vector<CachedShapes> pieces;
+
+  void clear() {
+    manifolds.clear();
+    shapes.clear();
+    seen.clear();
+    pieces.clear();
+  }
 };
 
 class PairContacts;
@@ -65,18 +74,18 @@ class ContactSet {
   template <class F>
   void for_each(const F& f) const {
     for (const Contact& c : now_.contacts) f(c);
-    resting_.for_piles([&f](std::span<const Contact> contacts, std::span<const CachedPair>) {
-      for (const Contact& c : contacts) f(c);
+    resting_.for_piles([&f](const ContactKnowledge& pile) {
+      for (const Contact& c : pile.contacts) f(c);
     });
   }
-  /// Calls f(key) for all pairs of shapes that are known, more than once for some.
+  /// Calls f(key) for all pairs that are known, more than once for some.
   template <class F>
   void for_each_pair(const F& f) const {
-    const auto each = [&f](std::span<const Contact> contacts, std::span<const CachedPair> seen) {
-      for (const Contact& c : contacts) f(c.key);
-      for (const CachedPair& s : seen) f(s.pair);
+    const auto each = [&f](const ContactKnowledge& known) {
+      for (const Contact& c : known.contacts) f(c.key);
+      for (const CachedPair& s : known.seen) f(s.pair);
     };
-    each(now_.contacts, now_.seen);
+    each(now_);
     resting_.for_piles(each);
   }
   size_t size() const { return now_.contacts.size() + resting_.contacts(); }
@@ -117,17 +126,17 @@ class ContactSet {
   /// Where the contacts of a pair come from.
   struct Source {
     ProxyPair pair;
-    std::span<const Contact> before;  ///< those of the tick before
-    const CachedPair* look =
-        nullptr;  ///< null where the narrow phase looked: else they are carried
+    std::span<const Contact> before;   ///< those of the tick before
+    const CachedPair* look = nullptr;  ///< what is still known; null where the narrow phase looked
+    bool carried = false;              ///< the contacts are those of before, else made
     uint32_t contacts = 0, looks = 0;  ///< taken from the chunk's manifolds and looks, in order
   };
   /// What one task finds.
   struct Chunk {
     std::vector<Source> sources;
     Sights sights;
-    size_t contacts = 0, looks = 0;            ///< of all sources
-    size_t first_contact = 0, first_look = 0;  ///< where they go
+    size_t contacts = 0, looks = 0;                             ///< of all sources
+    size_t first_contact = 0, first_look = 0, first_piece = 0;  ///< where they go
     ContactUpdateStats stats;
   };
   static void find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,

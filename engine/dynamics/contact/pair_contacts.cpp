@@ -1,6 +1,5 @@
 #include "engine/dynamics/contact/pair_contacts.hpp"
 
-#include "engine/collision/convex_pairs/pair.hpp"
 #include "engine/collision/shapes/convex_shape.hpp"
 #include "engine/dynamics/contact/cached_pair.hpp"
 #include "engine/dynamics/contact/tolerances.hpp"
@@ -13,10 +12,12 @@
 namespace tumble {
 namespace {
 
-/// Every triangle within the margin costs time, and meshes have many: for two surfaces of triangles
-/// what they travel in the tick counts and little beyond it.
-double margin_share(const PairSide& a, const PairSide& b) {
-  return (a.mesh || b.mesh) && a.polyhedral && b.polyhedral ? tolerances::triangles_of_margin : 1.0;
+/// From how far contacts are foreseen even of what does not move [m]. Every triangle within the
+/// margin costs time, and meshes have many: for two surfaces of triangles what they travel in the
+/// tick counts and little beyond it.
+double standing_reach(const PairSide& a, const PairSide& b) {
+  const bool triangles = (a.mesh || b.mesh) && a.polyhedral && b.polyhedral;
+  return (triangles ? tolerances::triangles_of_margin : 1.0) * std::min(a.margin, b.margin);
 }
 
 /// Carries the forces of one old point over to the new point that continues it.
@@ -41,7 +42,8 @@ class PointMatcher {
   void by_feature(Contact& contact, int i) {
     ContactPoint& p = contact.points[size_t(i)];
     for (size_t k = 0; k < old_.size(); ++k) {
-      if ((old_[k].key.part | second_manifold) != (contact.key.part | second_manifold)) continue;
+      // The same patch, in whichever of its manifolds.
+      if (uint32_t(old_[k].key.part) != uint32_t(contact.key.part)) continue;
       unsigned same = 0;
       for (int j = 0; j < old_[k].count; ++j)
         same |= unsigned{old_[k].points[size_t(j)].feature == p.feature} << j;
@@ -98,38 +100,28 @@ void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& o
   });
 }
 
-/// The features of the points that press, in `memory`.
-std::span<const uint64_t> pressed_features(std::span<const Contact> contacts,
-                                           std::vector<uint64_t>& memory) {
-  memory.resize(std::max(memory.size(), 4 * contacts.size()));
-  size_t count = 0;
-  for (const Contact& c : contacts) {
-    for (const ContactPoint& p : c.used()) {
-      memory[count] = p.feature;
-      count += p.normal_force > 0;
-    }
-  }
-  return std::span(memory).first(count);
-}
-
 /// Radius at which a shape is round where it touches along `outward` (unit, world axes).
-double rounding(const PairSide& side, const Vec3& outward) {
+double rounding(const PairSide& side, uint32_t shape, const Vec3& outward) {
   if (side.planes) return 0;
-  return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
+  if (!side.several) return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
+  const BodyShape& of_body = side.several->shapes[shape];
+  if (made_of_planes(*of_body.shape)) return 0;
+  return of_body.shape->rounding_along((side.body_pose.q * of_body.pose.q).conjugate() * outward);
 }
 
-void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, const PairSide& b,
-                  Contact& c) {
+void make_contact(const ContactKey& key, const ShapesOfPair& shapes, const Manifold& m,
+                  const PairSide& a, const PairSide& b, Contact& c) {
   const ContactHead fresh;
   static_cast<ContactHead&>(c) = fresh;
   c.key = key;
   c.key.part = m.part;
+  c.shapes = shapes;
   c.normal = m.normal;
   c.normal_a = a.body_pose.inverse_direction(m.normal);
   c.count = m.count;
   c.closest = m.closest;
-  c.rounding_a = rounding(a, m.normal);
-  c.rounding_b = rounding(b, -m.normal);
+  c.rounding_a = rounding(a, shapes.a, m.normal);
+  c.rounding_b = rounding(b, shapes.b, -m.normal);
   const Mat3 to_a = a.body_pose.q.conjugate().toRotationMatrix();
   const Mat3 to_b = b.body_pose.q.conjugate().toRotationMatrix();
   for (int i = 0; i < m.count; ++i) {
@@ -146,9 +138,9 @@ void make_contact(const ContactKey& key, const Manifold& m, const PairSide& a, c
 }  // namespace
 
 double PairContacts::reach(const PairSide& a, const PairSide& b) const {
-  const double approach = (b.end_velocity - a.end_velocity).norm() * h + (a.turning + b.turning);
-  return margin_share(a, b) * std::min(a.margin, b.margin) +
-         std::min(approach, std::min(a.foresight, b.foresight));
+  const double approach =
+      (b.end_velocity - a.end_velocity).norm() * tick.h + (a.turning + b.turning);
+  return standing_reach(a, b) + std::min(approach, std::min(a.foresight, b.foresight));
 }
 
 bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) const {
@@ -156,7 +148,8 @@ bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) cons
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
   const bool apart = history.contacts.empty();
   if (!apart && !(a.planes && b.planes)) return false;
-  const double reach_now = reach(a, b), left = history.seen->margin - reach_now;
+  const double reach_now = reach(a, b);
+  const double left = history.seen->margin - reach_now;
   if (!(left >= 0)) return false;
   const double tolerance = seen_tolerance(std::min(a.margin, b.margin));
   const double moved = moved_since(*history.seen, a, b, tolerance + (apart ? left : 0));
@@ -165,40 +158,49 @@ bool PairContacts::knows(const ProxyPair& pair, const PairHistory& history) cons
   return apart && reaches + 2 * tolerance <= history.seen->margin;
 }
 
-void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
-  const PairSide &a = sides[pair.a], &b = sides[pair.b];
-  const bool can_be_carried = a.planes && b.planes;
-  double asked = reach(a, b);
-  // Good for some motion.
-  if (can_be_carried) asked += 2 * seen_tolerance(std::min(a.margin, b.margin));
-  static thread_local std::vector<uint64_t> memory;
-  ContactQuery query{asked, hierarchy, pressed_features(history.contacts, memory)};
-  if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
-  double apart = asked;
+PairContacts::Look PairContacts::look_at_shapes(const PairSide& a, const PairSide& b,
+                                                ContactQuery query,
+                                                std::vector<Manifold>& out) const {
+  double apart = query.margin;
   query.apart = &apart;
-  std::vector<Manifold>& out = sights.manifolds;
   const auto first = std::ptrdiff_t(out.size());
   narrow_phase(*a.shape, a.shape_pose, *b.shape, b.shape_pose, query, out);
+  if (std::ptrdiff_t(out.size()) == first) return {std::max(query.margin, apart), true};
   out.erase(std::remove_if(out.begin() + first, out.end(),
                            [](const Manifold& m) { return m.count <= 0; }),
             out.end());
   const bool none = std::ptrdiff_t(out.size()) == first;
-  const double margin = none ? std::max(asked, apart) : asked;
-  if (can_be_carried || (none && margin > asked && !a.sphere && !b.sphere))
-    sights.seen.push_back(look_at(key(pair), a, b, margin));
+  return {none ? std::max(query.margin, apart) : query.margin, none};
+}
+
+void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sights& sights) const {
+  const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  const bool can_be_carried = a.planes && b.planes;
+  const double reach_now = reach(a, b);
+  // Good for some motion.
+  const double slack = can_be_carried ? 2 * seen_tolerance(std::min(a.margin, b.margin)) : 0;
+  static thread_local std::vector<uint64_t> memory;
+  ContactQuery query{reach_now + slack, hierarchy, pressed_features(history.contacts, memory)};
+  if (!history.contacts.empty()) query.start = &history.contacts.front().closest;
+  const Look seen = look_at_shapes(a, b, query, sights.manifolds);
+  if (can_be_carried || (seen.none && seen.margin > reach_now && !a.sphere && !b.sphere))
+    sights.seen.push_back(look_at(key(pair), a, b, seen.margin));
 }
 
 void PairContacts::make(const ProxyPair& pair, std::span<const Contact> before,
-                        std::span<const Manifold> manifolds, std::span<Contact> contacts) const {
+                        std::span<const Manifold> manifolds, std::span<const ShapesOfPair> shapes,
+                        std::span<Contact> contacts) const {
   const ContactKey pair_key = key(pair);
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
+  const ShapesOfPair two{a.shape_index, b.shape_index};
   static thread_local std::vector<unsigned> taken;
   static thread_local std::vector<uint32_t> order;
   order_by_part(manifolds, order);
   PointMatcher matcher(before, tolerances::same_place_of_radius * std::min(a.radius, b.radius),
                        taken);
   for (size_t i = 0; i < manifolds.size(); ++i) {
-    make_contact(pair_key, manifolds[order[i]], a, b, contacts[i]);
+    const uint32_t at = order[i];
+    make_contact(pair_key, shapes.empty() ? two : shapes[at], manifolds[at], a, b, contacts[i]);
     matcher.match(contacts[i]);
     take_materials(contacts[i], a, b);
   }

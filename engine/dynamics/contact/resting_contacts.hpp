@@ -32,11 +32,11 @@ class RestingContacts {
   size_t contacts() const { return contacts_; }
   uint64_t points() const { return points_; }
   double max_penetration();  ///< [m]
-  /// Calls f(contacts, looks) for every pile.
+  /// Calls f(what is known) for every pile.
   template <class F>
   void for_piles(const F& f) const {
     for (const Pile& pile : piles_)
-      if (!pile.bodies.empty()) f(pile.known.contacts, pile.known.seen);
+      if (!pile.bodies.empty()) f(pile.known);
   }
 
   /// From here on all changes can be undone by go_back().

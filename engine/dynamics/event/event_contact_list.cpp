@@ -21,6 +21,17 @@ ContactPoint point_of(const EventContact& c, const ElementGap& g,
   return p;
 }
 
+/// As contacts of the time stepper are named, which pairs some bodies as wholes.
+ContactKey name_of_pair(const EventContact& c, std::span<const RigidBody> bodies) {
+  const bool whole_a = bodies[c.key.body_a].tree != nullptr,
+             whole_b = bodies[c.key.body_b].tree != nullptr;
+  ContactKey key = c.key;
+  if (whole_a || whole_b) key.part += mark_of({c.key.shape_a, c.key.shape_b});
+  if (whole_a) key.shape_a = 0;
+  if (whole_b) key.shape_b = 0;
+  return key;
+}
+
 }  // namespace
 
 std::vector<Contact> contact_list(std::span<const EventContact> contacts,
@@ -29,9 +40,13 @@ std::vector<Contact> contact_list(std::span<const EventContact> contacts,
   for (const EventContact& c : contacts) {
     const ElementGap g = gap_now(c, bodies);
     if (!c.closed && c.impulse.isZero(0) && c.room(g) > tolerances::touch_distance) continue;
-    if (out.empty() || out.back().key != c.key || out.back().count == 4) {
+    const ShapesOfPair shapes{c.key.shape_a, c.key.shape_b};
+    const ContactKey key = name_of_pair(c, bodies);
+    if (out.empty() || out.back().key != key || out.back().shapes != shapes ||
+        out.back().count == 4) {
       Contact& made = out.emplace_back();
-      made.key = c.key;
+      made.key = key;
+      made.shapes = shapes;
       made.normal = g.normal;
       made.friction = c.friction;
       made.restitution = c.restitution;

@@ -205,7 +205,7 @@ void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
 }
 
 void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
-  if (all_stale_) number_proxies(bodies, proxies_);
+  if (all_stale_) number_shape_proxies(bodies, proxies_);
   ++proxies_.news.number;
   proxies_.news.all = all_stale_;
   proxies_.news.moving.clear();

@@ -216,8 +216,8 @@ Error non_finite(std::span<const RigidBody> bodies, std::span<const Contact> con
   std::string cause = "it touches nothing, so a force on it is to blame";
   if (deepest) {
     cause = fmt::format("its deepest contact is body {} shape {} with body {} shape {}, gap {} m",
-                        deepest->key.body_a, deepest->key.shape_a, deepest->key.body_b,
-                        deepest->key.shape_b, gap);
+                        deepest->key.body_a, deepest->shapes.a, deepest->key.body_b,
+                        deepest->shapes.b, gap);
   }
   return {ErrorCode::numeric, fmt::format("the {} became non-finite: {}", what, cause),
           fmt::format("body {}", slot), "use a shorter tick, or less extreme masses and forces"};

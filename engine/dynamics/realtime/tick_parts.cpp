@@ -14,17 +14,23 @@
 namespace tumble {
 namespace {
 
-/// How thin a moving shape is [m]; infinite for what does not count. A sharp rim does not count as
-/// thin: `thin_of_size` is the least.
-double thickness(const RigidBody& body, uint32_t shape, bool close) {
-  const Shape& s = *body.shapes[shape].shape;
-  if (!body.dynamic()) return std::numeric_limits<double>::infinity();
-  if (!s.is_mesh())
-    return close            ? tolerances::close_of_radius * body.inner_radius
-           : body.looks_far ? body.inner_radius
-                            : std::numeric_limits<double>::infinity();
-  const MeshSurface& surface = s.polyhedral()->surface();
-  return std::max(surface.min_thickness, tolerances::thin_of_size * surface.size);
+/// How thin the thinnest shape of a moving body is [m]; infinite for what does not count. A sharp
+/// rim does not count as thin: `thin_of_size` is the least.
+double thickness(const RigidBody& body, bool close) {
+  double least = std::numeric_limits<double>::infinity();
+  if (!body.dynamic()) return least;
+  for (const BodyShape& s : body.shapes) {
+    if (s.shape->is_mesh()) {
+      const MeshSurface& surface = s.shape->polyhedral()->surface();
+      least =
+          std::min(least, std::max(surface.min_thickness, tolerances::thin_of_size * surface.size));
+    } else if (close) {
+      least = std::min(least, tolerances::close_of_radius * body.inner_radius);
+    } else if (body.looks_far) {
+      least = std::min(least, body.inner_radius);
+    }
+  }
+  return least;
 }
 
 /// Bound on how fast any two points of the bodies pass each other [m/s].
@@ -37,10 +43,9 @@ double passing_speed(const RigidBody& a, const RigidBody& b) {
 
 /// How many parts a pair asks for.
 int parts_for(const TickParts::Tick& tick, const ProxyPair& pair, int most) {
-  const ShapeRef &at_a = tick.proxies.refs[pair.a], &at_b = tick.proxies.refs[pair.b];
-  const RigidBody &a = tick.bodies[at_a.body], &b = tick.bodies[at_b.body];
-  const double thin =
-      std::min(thickness(a, at_a.shape, tick.close), thickness(b, at_b.shape, tick.close));
+  const RigidBody& a = tick.bodies[tick.proxies.refs[pair.a].body];
+  const RigidBody& b = tick.bodies[tick.proxies.refs[pair.b].body];
+  const double thin = std::min(thickness(a, tick.close), thickness(b, tick.close));
   if (!std::isfinite(thin)) return 1;
   const double gained = tick.close ? tick.gravity * tick.h : 0;
   const double wanted =
