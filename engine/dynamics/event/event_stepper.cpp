@@ -377,6 +377,13 @@ void EventStepper::save(ByteWriter& out) const {
     out.value(ticks.left);
     out.value(ticks.last);
   }
+  out.value(uint64_t(time_stepped_particles.size()));
+  for (const TimeSteppedParticle& p : time_stepped_particles) {
+    out.value(p.particle.system);
+    out.value(p.particle.particle);
+    out.value(p.ticks.left);
+    out.value(p.ticks.last);
+  }
 }
 
 bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
@@ -418,7 +425,16 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
     in.value(ticks.left);
     in.value(ticks.last);
   }
-  if (!in.ok()) contacts.clear(), time_stepped.clear();
+  time_stepped_particles.clear();
+  const auto of_particles = in.get<uint64_t>();
+  for (uint64_t k = 0; k < of_particles && in.ok(); ++k) {
+    TimeSteppedParticle& p = time_stepped_particles.emplace_back();
+    in.value(p.particle.system);
+    in.value(p.particle.particle);
+    in.value(p.ticks.left);
+    in.value(p.ticks.last);
+  }
+  if (!in.ok()) contacts.clear(), time_stepped.clear(), time_stepped_particles.clear();
   return in.ok();
 }
 
