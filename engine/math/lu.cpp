@@ -1,5 +1,6 @@
 #include "engine/math/lu.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
 #include "engine/math/kernels.hpp"
 
@@ -16,6 +17,7 @@ bool LuFactor::factor(std::span<const double> a, int n, double least) {
   double most = 0;
   for (const double x : a_) most = std::max(most, std::fabs(x));
   for (int k = 0; k < n; ++k) {
+    if (stop_requested()) return false;
     double* c = column(k);
     // The columns to the left act on this one now: one pass over memory that stays in the cache.
     for (int j = 0; j < k; ++j)

@@ -273,6 +273,8 @@ struct Apply {
     for (auto* names : {&s.touching_particles, &s.event.particles})
       for (ParticleName& name : *names)
         if (name.system == id) name.particle = 0;
+    std::erase_if(s.event.time_stepped_particles,
+                  [&](const TimeSteppedParticle& p) { return p.particle.system == id; });
     const std::vector<uint32_t> gone(old.size(), ParticleDetection::gone);
     s.particle_detection.renumber(id, gone);
     s.grain_touches.clear();

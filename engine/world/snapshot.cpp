@@ -25,8 +25,8 @@ constexpr uint32_t emitters_version = 5;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
-/// 2: particles in contact. 3: ticks that are time-stepped.
-constexpr uint32_t event_version = 3;
+/// 2: particles in contact. 3: ticks that are time-stepped. 4: those of particles.
+constexpr uint32_t event_version = 4;
 /// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
 /// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
 /// 6: friction with fluids. 7: courses; whole tensors of inertia, centres of mass, what is drawn
@@ -386,6 +386,7 @@ Result<uint64_t> load_state(WorldState& target, std::span<const std::byte> snaps
   target.event.contacts = std::move(s.event.contacts);
   target.event.particles = std::move(s.event.particles);
   target.event.time_stepped = std::move(s.event.time_stepped);
+  target.event.time_stepped_particles = std::move(s.event.time_stepped_particles);
   target.reserved = std::move(s.reserved);
   target.queue = std::move(s.queue);
   target.islands = {};

@@ -84,6 +84,23 @@ void share_forces_on_particles(WorldState& s) {
                    [&s](size_t slot) { return holds_fast(s, *s.forces[slot]); });
 }
 
+/// What particles remember of ticks that were too much for their groups, by slot of their blocks
+/// while these are there.
+void restore_time_stepped(WorldState& s) {
+  s.event.time_stepped.resize(s.bodies.bodies.size());
+  for (const TimeSteppedParticle& p : s.event.time_stepped_particles)
+    if (const uint32_t slot = s.blocks.slot_of(p.particle, s.particles);
+        slot != ParticleBlocks::no_slot)
+      s.event.time_stepped[slot] = p.ticks;
+}
+
+void store_time_stepped(WorldState& s) {
+  s.event.time_stepped_particles.clear();
+  for (uint32_t slot = 0; slot < s.event.time_stepped.size(); ++slot)
+    if (s.blocks.holds(slot) && s.event.time_stepped[slot].last > 0)
+      s.event.time_stepped_particles.push_back({s.blocks.name(slot), s.event.time_stepped[slot]});
+}
+
 /// From here on the bodies end with the particles that move like them.
 Status append_particles(WorldState& s) {
   if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
@@ -91,6 +108,7 @@ Status append_particles(WorldState& s) {
       !made)
     return made;
   s.blocks.restore_contacts(s.particles, s.event.particles, s.event.contacts);
+  restore_time_stepped(s);
   for (ForceShare& share : s.workspace.books.shares) share.to_blocks(s.blocks);
   return {};
 }
@@ -98,6 +116,7 @@ Status append_particles(WorldState& s) {
 void withdraw_particles(WorldState& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   s.blocks.store_contacts(s.event.contacts, s.event.particles);
+  store_time_stepped(s);
   s.blocks.remove(s.bodies.bodies);
   s.event.time_stepped.resize(s.bodies.bodies.size());
 }

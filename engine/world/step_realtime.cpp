@@ -266,6 +266,7 @@ Status step_realtime(WorldState& state) {
   state.event.particles.clear();
   state.event.contacts.clear();  // what they knew of offsets and forces is out of date
   state.event.time_stepped.clear();
+  state.event.time_stepped_particles.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   state.stats.time_stepped = 0;
   Status status = run_stages(state);

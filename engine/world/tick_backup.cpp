@@ -15,6 +15,7 @@ void TickBackup::take(WorldState& s) {
   event_contacts_ = s.event.contacts;
   event_particles_ = s.event.particles;
   time_stepped_ = s.event.time_stepped;
+  time_stepped_particles_ = s.event.time_stepped_particles;
   touching_particles_ = s.touching_particles;
   particles_.resize(s.particles.size());
   for (size_t i = 0; i < particles_.size(); ++i) {
@@ -51,6 +52,7 @@ void TickBackup::restore(WorldState& s) {
   s.event.contacts.swap(event_contacts_);
   s.event.particles.swap(event_particles_);
   s.event.time_stepped.swap(time_stepped_);
+  s.event.time_stepped_particles.swap(time_stepped_particles_);
   s.particle_contacts.go_back();
   s.grain_touches.go_back();
   s.touching_particles.swap(touching_particles_);

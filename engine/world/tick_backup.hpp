@@ -38,6 +38,7 @@ class TickBackup {
   std::vector<EventContact> event_contacts_;
   std::vector<ParticleName> event_particles_;
   std::vector<TimeSteppedTicks> time_stepped_;
+  std::vector<TimeSteppedParticle> time_stepped_particles_;
   std::vector<ParticleName> touching_particles_;
   std::vector<ParticleSystem> particles_;
   std::vector<Emitter> emitters_;

@@ -3,6 +3,7 @@
 // the same equations as dense matrices, solved by Eigen's complete orthogonal decomposition, and
 // the mobility of the mechanisms (Bennett 1903, Bricard 1897).
 #include "engine/core/random.hpp"
+#include "engine/dynamics/event/impulses/point_mobility.hpp"
 #include "engine/dynamics/rows/delassus.hpp"
 #include "engine/math/dense.hpp"
 #include "engine/math/rotation.hpp"
@@ -113,6 +114,29 @@ struct Jointed : BodyList {
       for (Eigen::Index k = 0; k < reduced.cols(); ++k)
         if (reduced(i, i) > 1e-9 && reduced(k, k) > 1e-9)
           CHECK(std::fabs(got(i, k) - reduced(i, k)) < 1e-9 * reduced.diagonal().maxCoeff());
+    compare_points(r);
+  }
+  /// What points answer to each other, against the matrices of all their rows.
+  void compare_points(Random& r) const {
+    std::vector<Row> rows;
+    std::vector<Eigen::Index> all;
+    for (int point = 0; point < 5; ++point) {
+      const Vec3 arm(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+      const auto a = r.below(uint32_t(blocks.size())), b = r.below(uint32_t(blocks.size()));
+      for (int k = 0; k < 3; ++k) {
+        all.push_back(Eigen::Index(rows.size()));
+        rows.push_back(point_row(point % 2 ? no_block : a, arm, b, -arm, Vec3::Unit(k)));
+      }
+    }
+    Eigen::MatrixXd A = delassus(rows, blocks);
+    CHECK(PointMobility(rows, blocks, {}).dense(all) == A);
+    held.reduce(rows, A);
+    const PointMobility mobility(rows, blocks, held);
+    CHECK((mobility.dense(all) - A).norm() <= 1e-13 * A.norm());
+    Eigen::VectorXd z(A.rows()), y = Eigen::VectorXd::Zero(A.rows());
+    for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = r.uniform(-1, 1);
+    mobility.add_product(z, y);
+    CHECK((y - A * z).norm() <= 1e-13 * A.norm() * z.norm());
   }
 };
 

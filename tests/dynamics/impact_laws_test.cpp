@@ -1,12 +1,17 @@
 // Laws of simultaneous impact. References: closed forms of Newton's cradle and of the symmetric
 // break under each law (Smith et al. 2012, section 2; worked out in the tests); conservation of
-// momentum and energy; the single collision by Stronge's energetic law.
+// momentum and energy; the single collision by Stronge's energetic law; of how points answer to
+// each other the matrix of all their rows.
 #include "engine/core/random.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_law.hpp"
+#include "engine/dynamics/event/impulses/point_mobility.hpp"
+#include "engine/dynamics/rows/delassus.hpp"
+#include "engine/math/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -400,5 +405,32 @@ TEST_CASE("many points at once, solved body by body, keep every condition of a c
       if (slip.norm() > 1e-6)
         CHECK(lateral.dot(slip) <= -p.friction * normal * slip.norm() + 1e-7 * slip.norm());
     }
+  }
+}
+
+TEST_CASE("points answer to those of the same bodies only, as the matrix of all their rows says") {
+  for (const uint32_t n : {2u, 10u, 50u}) {
+    const std::vector<DofBlock> balls(n, ball(1, Vec3::Zero()));
+    std::vector<Row> rows;
+    for (const ImpactPoint& p : wedged_row(n, 0)) {
+      Vec3 s, t;
+      tangent_frame(p.normal, s, t);
+      for (const Vec3& axis : {p.normal, s, t})
+        rows.push_back(point_row(p.a, p.arm_a, p.b, p.arm_b, axis));
+    }
+    const PointMobility mobility(rows, balls, {});
+    REQUIRE(mobility.points() == int(n + 1));
+    CHECK(mobility.size() == 3 * n + 1);  // itself and two others, but one at the ends
+    std::vector<Eigen::Index> all(rows.size());
+    std::iota(all.begin(), all.end(), 0);
+    const Eigen::MatrixXd A = delassus(rows, balls);
+    CHECK(mobility.dense(all) == A);
+    const std::vector<Eigen::Index> some{1, 3, 4, Eigen::Index(rows.size()) - 1};
+    CHECK(mobility.dense(some) == A(some, some));
+    Eigen::VectorXd once = Eigen::VectorXd::Zero(A.rows()), both = once;
+    mobility.add_product(1, {1, -2, 3}, once);
+    mobility.add_product(Eigen::VectorXd::Unit(A.rows(), 4), both);
+    CHECK(once == A.col(3) - 2 * A.col(4) + 3 * A.col(5));
+    CHECK(both == A.col(4));
   }
 }

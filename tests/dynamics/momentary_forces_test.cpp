@@ -70,6 +70,28 @@ TEST_CASE("drag at one moment is what its definition says, on the bodies asked f
   CHECK((b.force + 0.5 * 1.2 * 0.47 * area * u.norm() * u).norm() < 1e-12 * b.force.norm());
 }
 
+TEST_CASE("a flow is asked once about what cannot turn, whose force is the same") {
+  Pulled p;
+  p.all = {1};
+  const ForceContext context = p.context(1.0 / 60, true);
+  int asked = 0;
+  const auto flow = [&](const Vec3& x) {
+    ++asked;
+    return Vec3(1 - x.z(), 2, 3 * x.x());
+  };
+  const RigidBody ball = p.set.bodies[1];
+  RigidBody turns = ball, point = ball;
+  point.inertia_body = point.inverse_inertia_body = Mat3::Zero();
+  carry_along(flow, FlowGrip{2, 1.2}, context, turns);
+  CHECK(asked == 7);  // and twice along each axis about how it turns
+  CHECK_FALSE(turns.torque.isZero(0));
+  asked = 0;
+  carry_along(flow, FlowGrip{2, 1.2}, context, point);
+  CHECK(asked == 1);
+  CHECK(point.force == turns.force);
+  CHECK(point.torque.isZero(0));
+}
+
 TEST_CASE("a spring at one moment pulls with k (l - l0) + c dl/dt at both its ends") {
   Pulled p;
   SpringDef spring;

@@ -86,19 +86,36 @@ double EventGroup::safe_step(double most) const {
       if (body->dynamic())
         inner = std::min(inner, std::max(thinnest_part(*body),
                                          tolerances::least_inner_of_size * size_of(*body)));
-    double speed = (a.v - b.v).norm();
-    for (const uint32_t slot : {p.a.body, p.b.body}) {
-      const RigidBody& body = state_.bodies[slot];
-      speed += step * body.inverse_mass * body.force.norm();
-      if (!std::isfinite(body.bounding_radius)) continue;
-      const Vec3& half = state_.group.reaches[slot].half;
-      speed +=
-          half.allFinite() ? turning_speed(body, half) : body.omega.norm() * body.bounding_radius;
-    }
+    const double speed = passing_speed(p, step);
     const double length = std::max(room, tolerances::passed_of_inner * inner);
     if (speed * step > length) step = length / speed;
   }
   return step;
+}
+
+/// Greatest speed of any point of one against any of the other [m/s]. Friction goes with how they
+/// pass each other; without it all that matters is how they come along the normal that parts them,
+/// where there is one for all of them: spin about it brings nobody nearer.
+double EventGroup::passing_speed(const EventPair& p, double step) const {
+  const RigidBody &a = state_.bodies[p.a.body], &b = state_.bodies[p.b.body];
+  const BodyShape &of_a = a.shapes[p.a.shape], &of_b = b.shapes[p.b.shape];
+  const bool along = p.gap.near && combine(of_a.material, of_b.material).friction == 0 &&
+                     has_pair_gap(*of_a.shape, *of_b.shape);
+  const Vec3& n = p.gap.normal;
+  double speed = along ? std::fabs(n.dot(a.v - b.v)) : (a.v - b.v).norm();
+  for (const uint32_t slot : {p.a.body, p.b.body}) {
+    const RigidBody& body = state_.bodies[slot];
+    speed += step * body.inverse_mass * body.force.norm();
+    if (!std::isfinite(body.bounding_radius)) continue;
+    const Vec3& half = state_.group.reaches[slot].half;
+    if (along)
+      speed += turning_speed_along(body, half, n);
+    else if (half.allFinite())
+      speed += turning_speed(body, half);
+    else
+      speed += body.omega.norm() * body.bounding_radius;
+  }
+  return speed;
 }
 
 bool EventGroup::is_shortest(double step) const {

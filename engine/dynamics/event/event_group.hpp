@@ -49,6 +49,7 @@ class EventGroup {
   void go_back();
   void note_gone();
   double safe_step(double most) const;
+  double passing_speed(const EventPair& p, double step) const;
   /// No step that ends earlier is tried.
   bool is_shortest(double step) const;
   /// Adaptive integrators may stop short, and a step without an answer is tried shorter: `step` is

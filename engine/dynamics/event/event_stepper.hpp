@@ -21,6 +21,12 @@ struct TimeSteppedTicks {
   bool operator==(const TimeSteppedTicks&) const = default;
 };
 
+/// The same of a particle.
+struct TimeSteppedParticle {
+  ParticleName particle;
+  TimeSteppedTicks ticks;
+};
+
 /// The motion of all bodies over one tick of the `event` stepper: groups of bodies that may meet in
 /// it go through their own events, independently of each other. A group that has more events than
 /// its budget, or to which an event gives no way on, goes back to the start of the tick and through
@@ -42,8 +48,10 @@ class EventStepper {
   /// Of the last tick, by group; empty without EventContext::rates.
   std::vector<GroupBooks> books;
 
-  /// By body slot; bodies behind the end have none. State.
+  /// By body slot, those of particles' blocks with them; bodies behind the end have none. State.
   std::vector<TimeSteppedTicks> time_stepped;
+  /// Between ticks, when they have no slots: of the particles that have any. State.
+  std::vector<TimeSteppedParticle> time_stepped_particles;
 
   /// Drops what is known of a body that is removed or replaced.
   void remove_body(uint32_t body);
@@ -59,6 +67,7 @@ class EventStepper {
                     const EventContext& context, double h, Crew& crew);
   Status move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                      const EventContext& context, double h, Crew& crew);
+  double share_of_budget(const BodyGroup& group) const;
   void note_spent();
   Status time_step(std::span<RigidBody> bodies, const EventContext& context);
   void note_time_stepped();

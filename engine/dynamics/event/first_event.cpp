@@ -50,7 +50,8 @@ void FirstEvent::place_at(double t) {
 
 void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
   const double start = w.value, away = std::max(start, 0.0) + hop;
-  for (double probe = step / tolerances::looks_per_step; probe > tolerances::least_probe * step;
+  for (double probe = step / tolerances::looks_per_step;
+       probe > tolerances::least_probe * step && !stop_requested();
        probe *= tolerances::probe_factor) {
     place_at(t + probe);
     w.lo = probe;
@@ -111,6 +112,7 @@ double FirstEvent::find(double t, double step) {
   for (const EventPair& p : state_.pairs) {
     const double reach = tolerances::watched_reaches * reach_in(p, step);
     for (EventContact& c : state_.contacts_of(p)) {
+      if (stop_requested()) return step;
       if (c.closed && !c.sliding) continue;
       const double value = event_value(c);
       if (!c.closed && value > reach) continue;

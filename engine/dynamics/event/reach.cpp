@@ -28,6 +28,12 @@ double greatest_turn(const RigidBody& b, const Vec3& half, const Vec3& turn) {
   return std::min(about, across.norm());
 }
 
+double turning_speed_along(const RigidBody& b, const Vec3& half, const Vec3& normal) {
+  const Vec3 across = b.pose.inverse_direction(normal.cross(b.omega));
+  const double about = across.norm() * turning_radius(b);
+  return half.allFinite() ? std::min(about, across.cwiseAbs().dot(half)) : about;
+}
+
 bool travels(const RigidBody& b) {
   return b.dynamic() || (b.type == BodyType::kinematic && !(b.v.isZero(0) && b.omega.isZero(0)));
 }

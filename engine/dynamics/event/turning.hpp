@@ -12,4 +12,7 @@ inline double turning_speed(const RigidBody& b, const Vec3& half) {
   return greatest_turn(b, half, b.pose.inverse_direction(b.omega));
 }
 
+/// Likewise along a unit normal, world axes, which the body may spin about.
+double turning_speed_along(const RigidBody& body, const Vec3& half, const Vec3& normal);
+
 }  // namespace tumble

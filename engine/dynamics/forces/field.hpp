@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/parameters.hpp"
+#include "engine/dynamics/bodies/point_mass.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
 #include "engine/dynamics/forces/tolerances.hpp"
 
@@ -129,7 +130,7 @@ Vec3 flow_spin(const Flow& flow, const Vec3& x, double r) {
                     gradient(1, 0) - gradient(0, 1));
 }
 
-/// Force and torque of a flow on one body.
+/// Force and torque of a flow on one body; on what cannot turn the force alone.
 template <class Flow>
 void carry_along(const Flow& flow, const FlowGrip& grip, const ForceContext& context,
                  RigidBody& b) {
@@ -142,6 +143,7 @@ void carry_along(const Flow& flow, const FlowGrip& grip, const ForceContext& con
   const Vec3 v = b.v + lead * b.gravity_scale * context.gravity;
   const Vec3 x = b.pose.x + lead * b.v;
   b.force += b.mass * flow_acceleration(flow(x) - v, grip.rate, half * pi * r * r / b.mass, h);
+  if (is_particle(b)) return;
   const Vec3 turn = flow_spin(flow, x, r) - b.omega;
   const double spin2 = turn.squaredNorm();
   if (!(spin2 > 0)) return;

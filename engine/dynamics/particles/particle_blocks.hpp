@@ -44,6 +44,8 @@ class ParticleBlocks {
   bool empty() const { return owners_.empty(); }
   bool holds(uint32_t slot) const { return slot >= first_ && slot - first_ < owners_.size(); }
   ParticleName name(uint32_t slot) const { return owners_[slot - first_]; }
+  /// no_slot of what is gone, or has no block.
+  uint32_t slot_of(const ParticleName& name, std::span<const ParticleSystem> systems) const;
 
   /// Slots of blocks are those of one tick: between ticks contacts name particles by their place
   /// in a list, with particle_bit.
@@ -73,7 +75,6 @@ class ParticleBlocks {
   }
 
  private:
-  uint32_t slot_of(const ParticleName& name, std::span<const ParticleSystem> systems) const;
   Result<std::shared_ptr<const Shape>> ball(double radius);
 
   uint32_t first_ = 0;                ///< slot of the first block

@@ -22,21 +22,25 @@ double product(const RowSide& s, const RowSide& moved) {
 
 }  // namespace
 
+Row response(const Row& row, std::span<const DofBlock> blocks) {
+  return {response(row.a, blocks), response(row.b, blocks)};
+}
+
+double coupling(const Row& r, const Row& m) {
+  return product(r.a, m.a) + product(r.a, m.b) + product(r.b, m.a) + product(r.b, m.b);
+}
+
 Eigen::MatrixXd delassus(std::span<const Row> rows, std::span<const DofBlock> blocks) {
   const auto n = Eigen::Index(rows.size());
   std::vector<Row> moved(rows.size());
-  for (size_t j = 0; j < rows.size(); ++j)
-    moved[j] = {response(rows[j].a, blocks), response(rows[j].b, blocks)};
+  for (size_t j = 0; j < rows.size(); ++j) moved[j] = response(rows[j], blocks);
   Eigen::MatrixXd A(n, n);
   for (size_t j = 0; j < rows.size(); ++j) {
     charge_work(j + 1, 15);
     if (stop_requested()) return Eigen::MatrixXd::Zero(n, n);
-    for (size_t i = 0; i <= j; ++i) {
-      const Row &r = rows[i], &m = moved[j];
-      const double sum =
-          product(r.a, m.a) + product(r.a, m.b) + product(r.b, m.a) + product(r.b, m.b);
-      A(Eigen::Index(i), Eigen::Index(j)) = A(Eigen::Index(j), Eigen::Index(i)) = sum;
-    }
+    for (size_t i = 0; i <= j; ++i)
+      A(Eigen::Index(i), Eigen::Index(j)) = A(Eigen::Index(j), Eigen::Index(i)) =
+          coupling(rows[i], moved[j]);
   }
   return A;
 }

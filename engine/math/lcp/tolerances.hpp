@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 
 /// The numbers of the solvers that no option gives: unit, reason, and source where there is one.
 /// All are without unit; "scaled" is said of unknowns in which diagonal entries of A are about 1
@@ -131,6 +132,8 @@ inline constexpr double lost_enumerated_pivot = 1e-11;
 inline constexpr double sharp_residual = 1e-12;
 /// Systems of blocks after which Newton's method has stalled; and where the path does not answer.
 inline constexpr int first_block_systems = 60, patient_block_systems = 400;
+/// Factors of a symmetric matrix that the path takes at least: ten systems that are not symmetric.
+inline constexpr uint64_t factors_of_path = 20;
 /// What an answer may be out of balance, of the greatest |b|, in units of the diagonal of A.
 inline constexpr double off_balance = 1e-8;
 /// Slip at which undecided groups are as good as sliding ones, of the greatest |b|.

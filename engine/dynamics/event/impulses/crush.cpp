@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/impulses/crush.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/lcp/least/solution_cell.hpp"
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -35,7 +38,9 @@ class NearestApproach {
       scale_.segment<3>(3 * i).setConstant(answer > 0 ? 1 / std::sqrt(answer) : 0);
       u_.segment<3>(3 * i) = scale_[3 * i] * dense(system.velocity(i));
     }
-    A_ = scale_.asDiagonal() * system.mobility() * scale_.asDiagonal();
+    std::vector<Eigen::Index> all(static_cast<size_t>(size_));
+    std::iota(all.begin(), all.end(), 0);
+    A_ = scale_.asDiagonal() * system.mobility().dense(all) * scale_.asDiagonal();
     start_ = u_;
   }
 
@@ -116,6 +121,9 @@ bool moves_by_itself(std::span<const DofBlock> blocks, std::span<const ImpactPoi
 std::optional<Crush> find_crush(std::span<const DofBlock> blocks,
                                 std::span<const ImpactPoint> points, const Articulation& joints) {
   if (points.empty() || !moves_by_itself(blocks, points, joints)) return {};
+  // What a factor of the matrix takes.
+  const auto n = uint64_t(3 * points.size());
+  if (!may_begin_work(n * n * n / 3)) return {};
   const ImpactSystem system(blocks, points, joints);
   if (!system.finite()) return {};
   Crush out;

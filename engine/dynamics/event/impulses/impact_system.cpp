@@ -17,15 +17,6 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// y += A z, column by column, so that the order of sums is plain.
-void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::VectorXd& y) {
-  charge_work(size_t(z.size()), size_t(y.size()));
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
-    if (z[j] == 0) continue;
-    for (Eigen::Index i = 0; i < y.size(); ++i) y[i] += A(i, j) * z[j];
-  }
-}
-
 double in_order(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   double sum = 0;
   for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -55,8 +46,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
     }
     frames_.push_back(frame);
   }
-  A_ = delassus(rows_, blocks);
-  joints.reduce(rows_, A_);
+  A_ = PointMobility(rows_, blocks, joints);
   u_ = u0_;
   for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
 }
@@ -71,24 +61,24 @@ void ImpactSystem::add_limit(const Row& along) {
 
 bool ImpactSystem::finite() const {
   for (Eigen::Index i = 0; i < u_.size(); ++i) {
-    if (!std::isfinite(u_[i]) || !std::isfinite(A_(i, i))) return false;
+    if (!std::isfinite(u_[i])) return false;
+  }
+  for (int i = 0; i < points(); ++i) {
+    const Mat3& own = mobility(i);
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(own(k, k))) return false;
   }
   return true;
 }
 
 void ImpactSystem::add(int i, const Vec3& impulse) {
-  charge_work(size_t(u_.size()), 6);
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Index j = 3 * i + k;
-    z_[j] += impulse[k];
-    if (impulse[k] == 0) continue;
-    for (Eigen::Index r = 0; r < u_.size(); ++r) u_[r] += A_(r, j) * impulse[k];
-  }
+  for (int k = 0; k < 3; ++k) z_[3 * i + k] += impulse[k];
+  A_.add_product(i, impulse, u_);
 }
 
 void ImpactSystem::add(const Eigen::VectorXd& impulse) {
   for (Eigen::Index i = 0; i < z_.size(); ++i) z_[i] += impulse[i];
-  add_product(A_, impulse, u_);
+  A_.add_product(impulse, u_);
 }
 
 /// A complementarity problem: its unknowns' numbers in the system, and how it is solved.
@@ -138,7 +128,7 @@ void ImpactSystem::add_joint_rows(std::vector<Row>& rows, lcp::LcpProblem& probl
 /// The matrix, and where many unknowns would make it dear the rows in blocks.
 void ImpactSystem::set_matrices(Unknowns& unknowns) const {
   lcp::ConeTask& task = unknowns.task;
-  task.matrix = [this, &unknowns] { return lcp::MatX(A_(unknowns.rows, unknowns.rows)); };
+  task.matrix = [this, &unknowns] { return A_.dense(unknowns.rows); };
   if (task.few()) return;
   task.tolerance = tolerances::impulse_residual_of_many;
   if (!joints_->plain()) return;
@@ -190,8 +180,8 @@ double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::V
                                     ImpactReport& report) const {
   // The work along the way is convex, a s^2 + b s + c, and begins at no more than zero.
   Eigen::VectorXd response = Eigen::VectorXd::Zero(u_.size()), start = u_;
-  add_product(A_, more, response);
-  add_product(A_, first, start);
+  A_.add_product(more, response);
+  A_.add_product(first, start);
   const double c = std::min(0.0, work(first)), b = in_order(more, start),
                a = 0.5 * in_order(more, response);
   if (a + b + c <= 0) return 1;
@@ -210,16 +200,17 @@ double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::V
 
 void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) const {
   Eigen::VectorXd u = u_;
-  add_product(A_, impulse, u);
+  A_.add_product(impulse, u);
   double change = 0, speed = first_speed_;
   for (int sweep = 0; sweep < tolerances::most_sweeps && !stop_requested(); ++sweep) {
     change = 0;
-    charge_work(size_t(points()), 4 * size_t(u.size()));
+    charge_work(A_.size(), 12);
     for (int i = 0; i < points(); ++i) {
       const double radius = point(i).friction * impulse[3 * i];
       if (!(radius > 0)) continue;
       const Eigen::Index j = 3 * i + 1;
-      const double stiffest = A_(j, j) + A_(j + 1, j + 1);  // at least the greater eigenvalue
+      const Mat3& own = mobility(i);
+      const double stiffest = own(1, 1) + own(2, 2);  // at least the greater eigenvalue
       if (!(stiffest > 0)) continue;
       const Vec2 old(impulse[j], impulse[j + 1]);
       Vec2 t = old - Vec2(u[j], u[j + 1]) / stiffest;
@@ -227,8 +218,10 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
       const Vec2 step = t - old;
       change = std::max(change, stiffest * step.norm());
       impulse[j] = t.x(), impulse[j + 1] = t.y();
-      for (Eigen::Index r = 0; r < u.size(); ++r)
-        u[r] += A_(r, j) * step.x() + A_(r, j + 1) * step.y();
+      A_.for_column(i, [&](int row, const Mat3& block) {
+        for (int r = 0; r < 3; ++r)
+          u[3 * row + r] += block(r, 1) * step.x() + block(r, 2) * step.y();
+      });
     }
     if (change <= tolerances::sweep_change * speed) return;
   }
@@ -237,7 +230,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
 
 double ImpactSystem::work(const Eigen::VectorXd& impulse) const {
   Eigen::VectorXd twice = 2 * u_;
-  add_product(A_, impulse, twice);
+  A_.add_product(impulse, twice);
   return 0.5 * in_order(impulse, twice);
 }
 

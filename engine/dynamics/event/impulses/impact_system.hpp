@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/event/impulses/impact_law.hpp"
+#include "engine/dynamics/event/impulses/point_mobility.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
 #include "engine/math/dense.hpp"
 
@@ -23,8 +24,9 @@ class ImpactSystem {
   bool finite() const;
   double normal_velocity(int i) const { return u_[3 * i]; }
   Vec3 velocity(int i) const { return small_vector(u_.segment<3>(3 * i)); }
-  Mat3 mobility(int i) const { return small_matrix(A_.block<3, 3>(3 * i, 3 * i)); }
-  const Eigen::MatrixXd& mobility() const { return A_; }
+  /// How a point answers to its own impulse; and all to all.
+  const Mat3& mobility(int i) const { return A_.own(i); }
+  const PointMobility& mobility() const { return A_; }
   /// The fastest relative velocity at the beginning [m/s].
   double first_speed() const { return first_speed_; }
   /// Slower approach than this is none.
@@ -72,7 +74,7 @@ class ImpactSystem {
   const Articulation* joints_;
   std::vector<Row> rows_;
   std::vector<std::array<Vec3, 3>> frames_;
-  Eigen::MatrixXd A_;
+  PointMobility A_;
   Eigen::VectorXd u0_, u_, z_;
   double first_speed_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "engine/dynamics/event/impulses/laws.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/core/work_meter.hpp"
 #include "engine/dynamics/event/impulses/energetic_impact.hpp"
 #include "engine/dynamics/event/impulses/impact_system.hpp"
 #include "engine/dynamics/event/tolerances.hpp"
@@ -62,6 +63,7 @@ ImpactReport resolve(std::span<DofBlock> blocks, std::span<const ImpactPoint> po
 bool propagate(ImpactSystem& system, ImpactReport& report) {
   const int most = tolerances::most_rounds * system.points();
   for (; report.rounds < most && !stop_requested(); ++report.rounds) {
+    charge_work(size_t(system.points()), 2);
     int fastest = -1;
     for (int i = 0; i < system.points(); ++i) {
       if (!system.approaching(i)) continue;

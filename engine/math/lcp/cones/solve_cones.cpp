@@ -141,10 +141,9 @@ class ConeStages {
 };
 
 void ConeStages::attempt(const ConeStage& stage) {
-  if (stage.needs_matrix) {
-    // What a factor of it takes.
+  if (stage.factors > 0) {
     const auto n = uint64_t(task_.problem.size());
-    if (!may_begin_work(n * n * n / 6)) return;
+    if (!may_begin_work(stage.factors * (n * n * n / 6))) return;
     ask_matrix();
   }
   Result<LcpSolution> now = stage.solve(task_);
@@ -176,21 +175,20 @@ const std::vector<ConeStage>& all_cone_stages() {
   static const std::vector<ConeStage> list{
       {"asked", is_asked, solve_as_asked},
       {"blocks", has_blocks,
-       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::first_block_systems); },
-       false},
+       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::first_block_systems); }, 0},
       {"block_path", has_blocks,
-       [](const ConeTask& t) { return block_interior(*t.blocks, block_options(t, 0)); }, false},
+       [](const ConeTask& t) { return block_interior(*t.blocks, block_options(t, 0)); }, 0},
       {"newton", is_dense, newton_with_matrix},
       {"pivots", [](const ConeTask&) { return true; },
        [](const ConeTask& t) { return solve_without_laterals(t.problem); }},
       {"patient_blocks", has_blocks,
-       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::patient_block_systems); },
-       false},
-      {"path", has_blocks, [](const ConeTask& t) { return cone_interior(t.problem); }},
+       [](const ConeTask& t) { return newton_by_blocks(t, tolerances::patient_block_systems); }, 0},
+      {"path", has_blocks, [](const ConeTask& t) { return cone_interior(t.problem); },
+       tolerances::factors_of_path},
       {"matrix_newton", is_few_in_blocks, newton_with_matrix},
       {"fast_slip", is_sliding,
-       [](const ConeTask& t) { return solve_from_fast_slip(t.problem, t.few()); }, true, true},
-      {"enumeration", is_enumerable, [](const ConeTask& t) { return enumeration(t.problem); }, true,
+       [](const ConeTask& t) { return solve_from_fast_slip(t.problem, t.few()); }, 1, true},
+      {"enumeration", is_enumerable, [](const ConeTask& t) { return enumeration(t.problem); }, 1,
        true},
   };
   return list;

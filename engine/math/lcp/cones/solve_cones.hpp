@@ -2,6 +2,7 @@
 #include "engine/math/lcp/blocks/block_problem.hpp"
 #include "engine/math/lcp/solvers.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -39,7 +40,8 @@ struct ConeStage {
   std::string_view name;
   bool (*applies)(const ConeTask& task);
   Result<LcpSolution> (*solve)(const ConeTask& task);
-  bool needs_matrix = true;
+  /// Factors of the matrix that it takes at least, in those of a symmetric one; 0: it needs none.
+  uint64_t factors = 1;
   /// For what slides only: the answers of others may be small beside terms that grow without limit.
   bool sliding = false;
 };
