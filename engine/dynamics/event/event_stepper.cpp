@@ -8,7 +8,6 @@
 #include "engine/dynamics/event/tolerances.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <unordered_set>
 
 namespace tumble {
@@ -122,14 +121,15 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     if (!g.joints.empty()) g.laid_out = &laid_out_[g.joints.front()];
   for (BodyGroup& g : groups_)
     any |= g.scattered = !g.time_stepped && GroupWindows::scattered(g, context);
+  EventContext of_retries = context;
+  of_retries.budget_share = tolerances::retried_share;
   if (any) window_reaches_.reset(bodies.size());
   crew.each(groups_.size(), [&](size_t i) {
     BodyGroup& group = groups_[i];
     if (stop_requested() || group.time_stepped) return;
-    const double share = share_of_budget(group);
-    std::optional<EventContext> of_retry;
-    if (share < 1) of_retry.emplace(context).budget_share = share;
-    const EventContext& given = of_retry ? *of_retry : context;
+    const bool again = std::ranges::any_of(
+        group.bodies, [this](uint32_t slot) { return time_stepped[slot].last > 0; });
+    const EventContext& given = again ? of_retries : context;
     if (group.scattered)
       done[i] = GroupWindows(bodies, group, block_of_, window_reaches_, forces, given, crew)
                     .advance({0, h, h}, counted_[i]);
@@ -143,14 +143,6 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     groups_[i].time_stepped = true;
   }
   return {};
-}
-
-/// Less each time that a group is tried again, as its ticks between two tries are more: what was
-/// too much will be so again, and tries in vain are to cost ever less.
-double EventStepper::share_of_budget(const BodyGroup& group) const {
-  uint8_t waited = 0;
-  for (const uint32_t slot : group.bodies) waited = std::max(waited, time_stepped[slot].last);
-  return waited == 0 ? 1 : tolerances::retried_share * tolerances::first_waited_ticks / waited;
 }
 
 /// What groups spent goes with their bodies, in equal shares: a tick that is computed again, with

@@ -67,7 +67,6 @@ class EventStepper {
                     const EventContext& context, double h, Crew& crew);
   Status move_groups(std::span<RigidBody> bodies, const SmoothForces& forces,
                      const EventContext& context, double h, Crew& crew);
-  double share_of_budget(const BodyGroup& group) const;
   void note_spent();
   Status time_step(std::span<RigidBody> bodies, const EventContext& context);
   void note_time_stepped();

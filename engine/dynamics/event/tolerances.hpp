@@ -193,9 +193,8 @@ inline constexpr double group_spare = 4, group_surplus = 1.25, crowd_spare = 2,
                         window_surplus = 1.0625;
 /// Ticks that are time-stepped without a try after the first that failed, and at most [-].
 inline constexpr uint8_t first_waited_ticks = 4, most_waited_ticks = 32;
-/// Share of the budget that may be spent on the tick in which events are tried again after the
-/// first such ticks, and less after more of them, in the same measure [-]: where they take more,
-/// they are soon too much again.
+/// Share of the budget that may be spent on the tick in which events are tried again after ticks
+/// that were time-stepped [-]: where they take more, they are soon too much again.
 inline constexpr double retried_share = 0.25;
 /// How often a tick may be halved [-]: to four microseconds.
 inline constexpr int most_window_halvings = 12;
