@@ -35,7 +35,7 @@ double most_strain(const BuiltScene& s, const std::string& name) {
 TEST_CASE(
     "cloth_over_sphere: it drapes over the ball, rests there, and no part of the ball shows") {
   BuiltScene s = shipped("cloth_over_sphere");
-  run(s, 4);
+  run(s, 5);
   const ParticleSystem& cloth = *s.world->particles(s.particles.at("cloth"));
   const Vec3 centre = place(s, "ball");
   double speed = 0, nearest = 1, top = 0;

@@ -133,7 +133,8 @@ void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const
       const SolvedSpring::End& end = spring.end[i];
       row.body[i] = find(end.slot);
       row.weight[i] = end.weight;
-      if (end.slot != no_body && !end.point.isZero(0) && context.bodies[end.slot].dynamic())
+      if (end.slot != no_body && !end.point.isZero(0) &&
+          context.bodies[end.slot].type != BodyType::fixed)
         row.turns = uint32_t(spring_turns.size()) - layout.spring_turns.begin;
     }
     if (row.turns != SpringRow::none) spring_turns.emplace_back();

@@ -41,21 +41,20 @@ void end_substep(const SolverIsland& island, double hs, bool bounced) {
   if (bounced || limit_bounces(island)) recall_impulses(island);
 }
 
-/// Springs, joints and contacts in turn, as often as springs still change. They start without
-/// impulses: those of the sub-step before are in balance at other lengths, and a stiff spring would
-/// swing up by them.
-void solve_springs(const SolverContext& c, const SolverIsland& island, double hs, double push_out) {
-  start_springs(c, island, hs);
-  cold_start(island);
+/// Springs, joints and contacts in turn, as often as springs still change.
+void solve_springs(const SolverIsland& island, double hs, double push_out) {
   const size_t sweeps = std::clamp(tolerances::spring_budget / island.springs.size(),
                                    tolerances::least_spring_sweeps, tolerances::most_spring_sweeps);
-  double most = 0;
+  double most = 0, before = 0;
   for (size_t k = 0; k < sweeps; ++k) {
     const double change = sweep_springs(island, k % 2 == 1);
+    most = std::max(most, change);
+    const bool solved = change <= tolerances::spring_error * tolerances::spring_error * most;
+    if (!solved && k + 1 < sweeps) accelerate_springs(island, k == 0 ? 0 : change / before);
+    before = change;
     if (!island.joints.empty()) move_onto_joints(island, hs);
     solve_rows(island, hs, push_out, true);
-    most = std::max(most, change);
-    if (change <= tolerances::spring_error * tolerances::spring_error * most) return;
+    if (solved) return;
   }
 }
 
@@ -85,13 +84,14 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (i > 0) end_substep(island, hs, false);
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
+    warm_start(island);
+    if (!island.springs.empty()) start_springs(c, island, hs, i == 0);
     warm_start_joints(island, hs, JointPass::moving);
     if (island.springs.empty()) {
-      warm_start(island);
       move_onto_joints(island, hs);
       solve_rows(island, hs, push_out, true);
     } else {
-      solve_springs(c, island, hs, push_out);
+      solve_springs(island, hs, push_out);
     }
     if (measured) add_taken(JointPass::moving);
     integrate_positions(c, island, hs);

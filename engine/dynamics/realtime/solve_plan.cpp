@@ -94,6 +94,37 @@ bool SolvePlans::hangs_heavily(const SolverContext& c, const IslandSet& islands,
   return false;
 }
 
+/// By how fast things pass and how stiff springs are.
+int SolvePlans::spring_substeps(const SolverContext& c, const IslandSet& islands,
+                                const Island& island) const {
+  double speed = 0, shortest = std::numeric_limits<double>::infinity(), stiffest = 0;
+  for (const uint32_t k : springs(uint32_t(&island - islands.islands.data()))) {
+    const SolvedSpring& spring = c.springs[k];
+    Vec3 rate = Vec3::Zero();
+    double mobility = 0;
+    for (uint32_t i = 0; i < spring.count; ++i) {
+      const SolvedSpring::End& end = spring.end[i];
+      if (end.slot == no_body) continue;
+      const RigidBody& body = c.bodies[end.slot];
+      rate += end.weight * (body.v + body.omega.cross(body.pose.direction(end.point)));
+      mobility += end.weight * end.weight * body.inverse_mass;
+    }
+    stiffest = std::max(stiffest, spring.stiffness * mobility);
+    if (spring.rest_length == 0) continue;  // it resists bending, or is as good as without length
+    speed = std::max(speed, rate.norm());
+    shortest = std::min(shortest, spring.rest_length);
+  }
+  for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
+    const IslandSet::Ends& ends = islands.ends[islands.contacts[k]];
+    speed = std::max(speed, (c.bodies[ends.b].v - c.bodies[ends.a].v).norm());
+  }
+  const double needed = std::max(speed / (tolerances::passed_in_substep * shortest),
+                                 std::sqrt(stiffest) / tolerances::stiff_in_substep);
+  const double wanted = std::max(1 / tolerances::spring_substep, needed);
+  return int(std::ceil(std::min(
+      c.h * wanted, std::max(c.h / tolerances::spring_substep, tolerances::most_spring_substeps))));
+}
+
 WideSort SolvePlans::sort(const SolverContext& c, const IslandSet& islands, const Island& island) {
   const auto contacts =
       std::span(islands.contacts)
@@ -127,7 +158,7 @@ SolvePlan SolvePlans::plan(const SolverContext& c, const IslandSet& islands, con
   plan.substeps = s.substeps;
   const auto index = uint32_t(&island - islands.islands.data());
   if (!springs(index).empty()) {
-    plan.substeps = std::max(s.substeps, int(std::ceil(c.h / tolerances::spring_substep)));
+    plan.substeps = std::max(s.substeps, spring_substeps(c, islands, island));
     plan.joint_sweeps = precise_joint_sweeps(joints);
     return plan;
   }

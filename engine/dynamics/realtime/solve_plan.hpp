@@ -85,6 +85,8 @@ class SolvePlans {
  private:
   void read_bodies(const SolverContext& context, const IslandSet& islands, Crew& crew);
   SolvePlan plan(const SolverContext& context, const IslandSet& islands, const Island& island);
+  int spring_substeps(const SolverContext& context, const IslandSet& islands,
+                      const Island& island) const;
   WideSort sort(const SolverContext& context, const IslandSet& islands, const Island& island);
   bool sinks(const IslandSet& islands, const Island& island, double substep) const;
   bool hangs_heavily(const SolverContext& context, const IslandSet& islands,

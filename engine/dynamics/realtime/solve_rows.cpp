@@ -117,11 +117,6 @@ void warm_start(const SolverIsland& island) {
   }
 }
 
-void cold_start(const SolverIsland& island) {
-  for (ContactRow& row : island.rows) row.turning.impulse.setZero();
-  for (PointRow& p : island.points) p.normal = p.tangent1 = p.tangent2 = 0;
-}
-
 namespace {
 
 void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,

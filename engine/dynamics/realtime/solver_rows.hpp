@@ -141,8 +141,6 @@ void prepare_rows(const SolverContext& context, const SolverIsland& island, doub
 void refresh_spinning_rows(const SolverContext& context, const SolverIsland& island);
 /// Starts from the impulses of the sub-step before.
 void warm_start(const SolverIsland& island);
-/// Starts from none.
-void cold_start(const SolverIsland& island);
 /// One sweep over all rows; with bias it also works off penetration.
 void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bool bias);
 /// Sliding friction once more, bounded by the normal impulses with which the sub-step ends. Those

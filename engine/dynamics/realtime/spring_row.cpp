@@ -4,6 +4,8 @@
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -88,10 +90,10 @@ double solve_spring(const SolverIsland& island, SpringRow& row) {
     next += turn.follows * (u + turn.yields * row.impulse);
     yielded = turn.yields * (next - row.impulse);
   }
-  const Vec3 change = next - row.impulse;
+  row.change = next - row.impulse;
   row.impulse = next;
-  push(island, row, change);
-  return change.dot(yielded);
+  push(island, row, row.change);
+  return row.change.dot(yielded);
 }
 
 }  // namespace
@@ -106,24 +108,82 @@ void prepare_springs(const SolverContext& c, const SolverIsland& island) {
     for (uint32_t i = 0; i < row.count; ++i) {
       const SolvedSpring::End& end = spring.end[i];
       row.start += end.weight * (end.slot == no_body ? end.point : c.bodies[end.slot].pose.x);
+      // Of a body that does not turn, for good.
+      if (end.slot != no_body && row.turns == SpringRow::none)
+        row.start += end.weight * c.bodies[end.slot].pose.direction(end.point);
     }
     row.q = extent(c, island, row);
   }
 }
 
-void start_springs(const SolverContext& c, const SolverIsland& island, double hs) {
+namespace {
+
+/// Stiffness across the line, of one that is stretched [N/m].
+double stiffness_across(const SpringRow& row, double length) {
+  return length > row.rest_length ? row.stiffness * (1 - row.rest_length / length) : 0;
+}
+
+/// By solver body, how fast its springs make it swing across their lines: the sum of k/m [1/s2].
+std::span<const double> swings_across(const SolverIsland& island) {
+  thread_local std::vector<double> sums;
+  sums.assign(island.bodies.size(), 0);
+  for (const SpringRow& row : island.springs) {
+    const double k = stiffness_across(row, row.q.norm());
+    for (uint32_t i = 0; i < row.count; ++i)
+      sums[row.body[i]] +=
+          row.weight[i] * row.weight[i] * k * island.bodies[row.body[i]].inverse_mass;
+  }
+  return sums;
+}
+
+/// Pushes with the share of the guessed impulses P that is nearest to the solution: springs alone
+/// have the least of P A P / 2 - P u + |P|^2 / 2e - P a / e, A being what impulses change of the
+/// rates u, a what lengths ask for and e what rates do. `gains` and `costs` are the sums of P a / e
+/// and |P|^2 / e. So no guess is worse than none, however far the springs have gone on since.
+void start_from_guess(const SolverIsland& island, double gains, double costs) {
+  for (const SpringRow& row : island.springs) {
+    const double along = row.impulse.dot(rate(island, row));
+    gains += along;
+    costs += along;
+  }
+  for (const SpringRow& row : island.springs) push(island, row, row.impulse);
+  for (const SpringRow& row : island.springs) costs -= row.impulse.dot(rate(island, row));
+  const double share = costs > 0 ? std::clamp(gains / costs, 0.0, 1.0) : 0;
   for (SpringRow& row : island.springs) {
-    row.impulse.setZero();
+    push(island, row, (share - 1) * row.impulse);
+    row.impulse *= share;
+  }
+}
+
+}  // namespace
+
+void start_springs(const SolverContext& c, const SolverIsland& island, double hs, bool first) {
+  const std::span<const double> swings = swings_across(island);
+  double gains = 0, costs = 0;
+  for (SpringRow& row : island.springs) {
     const double length = row.q.norm(), k = row.stiffness;
     if (length > 0) row.n = row.q / length;
     // Without a length a spring that has one at rest has no direction to push in.
     const bool acts = length > 0 || row.rest_length == 0;
-    const double slack = length > 0 ? row.rest_length / length : 0;
     const double aim = acts ? hs * k * (length - row.rest_length) : 0;
     const double along = acts ? hs * (hs * k + row.damping) : 0;
-    const double across = acts ? hs * hs * k * std::max(0.0, 1 - slack) : 0;
-    set_response(c, island, along, across, aim, row);
+    const double guess = along == 0 ? 0 : first ? aim : row.n.dot(row.impulse);
+    row.impulse = guess * row.n;
+    if (guess != 0) {
+      gains += guess * aim / along;
+      costs += guess * guess / along;
+    }
+    double across = stiffness_across(row, length);
+    if (row.rest_length > 0) {
+      double z = 0;
+      for (uint32_t i = 0; i < row.count; ++i) z += hs * hs * swings[row.body[i]];
+      across *= std::max(0.0, 1 - 1 / z);
+    } else {
+      across = k;  // the same whatever the direction
+    }
+    set_response(c, island, along, hs * hs * across, aim, row);
   }
+  start_from_guess(island, gains, costs);
 }
 
 double sweep_springs(const SolverIsland& island, bool back) {
@@ -134,6 +194,20 @@ double sweep_springs(const SolverIsland& island, bool back) {
   else
     for (SpringRow& row : island.springs) change += solve_spring(island, row);
   return change;
+}
+
+void accelerate_springs(const SolverIsland& island, double share) {
+  const bool anew = !(share < 1);
+  for (SpringRow& row : island.springs) {
+    if (anew) {
+      row.step.setZero();
+      continue;
+    }
+    row.step *= share;
+    row.impulse += row.step;
+    push(island, row, row.step);
+    row.step += row.change;
+  }
 }
 
 void sum_springs(const SolverContext& c, const SolverIsland& island, double hs) {

@@ -33,8 +33,12 @@ struct SolvedSpring {
 /// One of them in the inner loops. Over a sub-step of h seconds it is backward Euler, linearised at
 /// its start (Baraff and Witkin, "Large steps in cloth simulation", 1998): with l the length of q
 /// and n its direction then, and u its rate at the end of the sub-step,
-///   P = h k (l - l0) n + E u,   E = (h^2 k + h c) n n^T + h^2 max(0, k (1 - l0/l)) (1 - n n^T).
-/// An impulse changes the rate by -W P, W being what the ends yield: the one that fulfils this is
+///   P = h k (l - l0) n + E u,   E = (h^2 k + h c) n n^T + h^2 k_u (1 - n n^T).
+/// k_u is the part of the stiffness across the line of a stretched spring, k (1 - l0/l), that a
+/// sub-step does not resolve: its share 1 - 1/z where z > 1, z being h^2 times the sum of such
+/// stiffness over mass of all springs at its ends (as in SpringNet). What is resolved goes along
+/// the line alone, which leaves angular momentum as it is. An impulse changes the rate by -W P, W
+/// being what the ends yield: the one that fulfils this is
 ///   P = (1 + E W)^-1 (h k (l - l0) n + E (u + W P_before)).
 struct SpringRow {
   static constexpr uint32_t none = ~uint32_t{0};
@@ -44,13 +48,15 @@ struct SpringRow {
   uint32_t source = 0;                                 ///< SolverContext::springs
   uint32_t turns = none;                               ///< SpringTurn of one that turns a body
   double stiffness = 0, damping = 0, rest_length = 0;  ///< SolvedSpring
-  Vec3 start = Vec3::Zero();  ///< q at the start of the step but for lever arms [m]
+  Vec3 start = Vec3::Zero();  ///< q at the start of the step but for arms that turn [m]
   Vec3 q = Vec3::Zero();      ///< now [m]
   Vec3 n = Vec3::UnitX();     ///< along q at the start of the sub-step
   Vec3 aim = Vec3::Zero();    ///< (1 + E W)^-1 h k (l - l0) n [N s]
   /// (1 + E W)^-1 E along n and across it, and W, of one that turns none [kg], [1/kg].
   double along = 0, across = 0, mobility = 0;
   Vec3 impulse = Vec3::Zero();                      ///< P of the sub-step [N s]
+  Vec3 change = Vec3::Zero();                       ///< of P by the last sweep [N s]
+  Vec3 step = Vec3::Zero();                         ///< direction of accelerate_springs [N s]
   Vec3 sum = Vec3::Zero(), elastic = Vec3::Zero();  ///< of the sub-steps so far: SolvedSpring
 };
 
@@ -66,11 +72,18 @@ struct SolverIsland;
 
 /// Fills the rows, which come with bodies, weights, count, source and turns set.
 void prepare_springs(const SolverContext& context, const SolverIsland& island);
-/// Makes ready for a sub-step of `hs` seconds, without impulses.
-void start_springs(const SolverContext& context, const SolverIsland& island, double hs);
+/// Makes ready for a sub-step of `hs` seconds, and starts from a share of the impulses of the one
+/// before; in the first from those that the lengths ask for.
+void start_springs(const SolverContext& context, const SolverIsland& island, double hs, bool first);
 /// One sweep over the springs of an island, there or back. Gives by how much impulses changed, as
 /// the sum of their squares in the norm of kinetic energy [J].
 double sweep_springs(const SolverIsland& island, bool back);
+/// After a sweep that changed impulses by `share` of what the one before did (sweep_springs): goes
+/// on in the conjugate direction, as nonlinear conjugate gradients do with a sweep as
+/// preconditioned gradient (M. Silcowitz-Hansen, S. Niebe and K. Erleben, "A nonsmooth nonlinear
+/// conjugate gradient method for interactive contact force problems", 2010), or starts anew where
+/// it has grown.
+void accelerate_springs(const SolverIsland& island, double share);
 /// When positions have moved: adds the impulses of the sub-step to those of the step.
 void sum_springs(const SolverContext& context, const SolverIsland& island, double hs);
 /// Writes these back.
