@@ -48,8 +48,8 @@ constexpr size_t wide_sorts = 5;
 ///   that it carries over its own, so these are small things, thin ones, and light ones below heavy
 ///   ones; and where nothing has weight,
 /// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled,
-/// - with springs that are solved together with contacts: all of the sub-steps, whatever their
-/// size.
+/// - with springs that are solved together with contacts: as many sub-steps as what moves and how
+///   stiff the springs are ask for, whatever the size.
 struct SolvePlan {
   int substeps = 1;
   int joint_sweeps = 1;  ///< before the bodies move, and after it

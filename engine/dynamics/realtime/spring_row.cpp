@@ -10,12 +10,14 @@
 namespace tumble {
 namespace {
 
+/// Lever arm of an end at the present orientation; none of the world.
 Vec3 arm_now(const SolverContext& c, const SolverBody& body, const SolvedSpring::End& end) {
   if (end.slot == no_body) return Vec3::Zero();
   const Vec3 arm = c.bodies[end.slot].pose.direction(end.point);
   return arm + body.turn * arm;
 }
 
+/// q at the present poses.
 Vec3 extent(const SolverContext& c, const SolverIsland& island, const SpringRow& row) {
   Vec3 q = row.start;
   for (uint32_t i = 0; i < row.count; ++i) q += row.weight[i] * island.bodies[row.body[i]].dx;
@@ -36,6 +38,7 @@ Vec3 rate(const SolverIsland& island, const SpringRow& row) {
   return u;
 }
 
+/// Impulse -w_i P on each end.
 void push(const SolverIsland& island, const SpringRow& row, const Vec3& P) {
   for (uint32_t i = 0; i < row.count; ++i) {
     SolverBody& body = island.bodies[row.body[i]];
