@@ -12,17 +12,6 @@ namespace {
 /// Kinds of what springs tie.
 constexpr uint8_t tied = 1, block = 2, elsewhere = 4;
 
-Vec3 place_of(const WorldState& s, const SolvedSpring::End& end) {
-  if (end.slot == no_body) return end.point;
-  const Pose& pose = s.bodies.bodies[end.slot].pose;
-  return pose.x + pose.direction(end.point);
-}
-Vec3 velocity_of(const WorldState& s, const SolvedSpring::End& end) {
-  if (end.slot == no_body) return Vec3::Zero();
-  const RigidBody& body = s.bodies.bodies[end.slot];
-  return body.v + body.omega.cross(body.pose.direction(end.point));
-}
-
 /// Takes a share out of the force sums.
 void withdraw(ForceShare& share, std::vector<RigidBody>& bodies) {
   for (const ForceShare::OnBody& on : share.bodies) {
@@ -208,15 +197,7 @@ uint32_t PressedNets::any_end(const SolvedSpring& spring) const {
 /// stretches it by l a^2 / 2, which is k h^2 / m a^2 / 4 of the energy of its turning.
 bool PressedNets::is_outrun(const WorldState& s, const SolvedSpring& spring, double part) const {
   if (spring.rest_length == 0) return false;
-  Vec3 q = Vec3::Zero(), rate = Vec3::Zero();
-  double mobility = 0;
-  for (uint32_t i = 0; i < spring.count; ++i) {
-    const SolvedSpring::End& end = spring.end[i];
-    q += end.weight * place_of(s, end);
-    rate += end.weight * velocity_of(s, end);
-    if (end.slot != no_body)
-      mobility += end.weight * end.weight * s.bodies.bodies[end.slot].inverse_mass;
-  }
+  const auto [q, rate, mobility] = spring_motion(spring, s.bodies.bodies);
   const double length = std::max(q.norm(), spring.rest_length);
   const double passed = part * rate.norm() / length;
   if (passed > tolerances::passed_of_length) return true;

@@ -346,6 +346,19 @@ void EventStepper::remove_body(uint32_t body) {
   if (body < time_stepped.size()) time_stepped[body] = {};
 }
 
+namespace {
+
+void save_ticks(ByteWriter& out, const TimeSteppedTicks& ticks) {
+  out.value(ticks.left);
+  out.value(ticks.last);
+}
+void load_ticks(ByteReader& in, TimeSteppedTicks& ticks) {
+  in.value(ticks.left);
+  in.value(ticks.last);
+}
+
+}  // namespace
+
 void EventStepper::save(ByteWriter& out) const {
   tumble::save(out, particles);
   out.value(uint64_t(contacts.size()));
@@ -373,16 +386,12 @@ void EventStepper::save(ByteWriter& out) const {
     out.value(c.force);
   }
   out.value(uint64_t(time_stepped.size()));
-  for (const TimeSteppedTicks& ticks : time_stepped) {
-    out.value(ticks.left);
-    out.value(ticks.last);
-  }
+  for (const TimeSteppedTicks& ticks : time_stepped) save_ticks(out, ticks);
   out.value(uint64_t(time_stepped_particles.size()));
   for (const TimeSteppedParticle& p : time_stepped_particles) {
     out.value(p.particle.system);
     out.value(p.particle.particle);
-    out.value(p.ticks.left);
-    out.value(p.ticks.last);
+    save_ticks(out, p.ticks);
   }
 }
 
@@ -420,19 +429,14 @@ bool EventStepper::load(ByteReader& in, uint32_t body_slots) {
   }
   time_stepped.clear();
   const auto remembered = in.get<uint64_t>();
-  for (uint64_t k = 0; k < remembered && in.ok(); ++k) {
-    TimeSteppedTicks& ticks = time_stepped.emplace_back();
-    in.value(ticks.left);
-    in.value(ticks.last);
-  }
+  for (uint64_t k = 0; k < remembered && in.ok(); ++k) load_ticks(in, time_stepped.emplace_back());
   time_stepped_particles.clear();
   const auto of_particles = in.get<uint64_t>();
   for (uint64_t k = 0; k < of_particles && in.ok(); ++k) {
     TimeSteppedParticle& p = time_stepped_particles.emplace_back();
     in.value(p.particle.system);
     in.value(p.particle.particle);
-    in.value(p.ticks.left);
-    in.value(p.ticks.last);
+    load_ticks(in, p.ticks);
   }
   if (!in.ok()) contacts.clear(), time_stepped.clear(), time_stepped_particles.clear();
   return in.ok();

@@ -100,18 +100,10 @@ int SolvePlans::spring_substeps(const SolverContext& c, const IslandSet& islands
   double speed = 0, shortest = std::numeric_limits<double>::infinity(), stiffest = 0;
   for (const uint32_t k : springs(uint32_t(&island - islands.islands.data()))) {
     const SolvedSpring& spring = c.springs[k];
-    Vec3 rate = Vec3::Zero();
-    double mobility = 0;
-    for (uint32_t i = 0; i < spring.count; ++i) {
-      const SolvedSpring::End& end = spring.end[i];
-      if (end.slot == no_body) continue;
-      const RigidBody& body = c.bodies[end.slot];
-      rate += end.weight * (body.v + body.omega.cross(body.pose.direction(end.point)));
-      mobility += end.weight * end.weight * body.inverse_mass;
-    }
-    stiffest = std::max(stiffest, spring.stiffness * mobility);
+    const SpringMotion motion = spring_motion(spring, c.bodies);
+    stiffest = std::max(stiffest, spring.stiffness * motion.mobility);
     if (spring.rest_length == 0) continue;  // it resists bending, or is as good as without length
-    speed = std::max(speed, rate.norm());
+    speed = std::max(speed, motion.rate.norm());
     shortest = std::min(shortest, spring.rest_length);
   }
   for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {

@@ -101,6 +101,23 @@ double solve_spring(const SolverIsland& island, SpringRow& row) {
 
 }  // namespace
 
+SpringMotion spring_motion(const SolvedSpring& spring, std::span<const RigidBody> bodies) {
+  SpringMotion motion;
+  for (uint32_t i = 0; i < spring.count; ++i) {
+    const SolvedSpring::End& end = spring.end[i];
+    if (end.slot == no_body) {
+      motion.q += end.weight * end.point;
+      continue;
+    }
+    const RigidBody& body = bodies[end.slot];
+    const Vec3 arm = body.pose.direction(end.point);
+    motion.q += end.weight * (body.pose.x + arm);
+    motion.rate += end.weight * (body.v + body.omega.cross(arm));
+    motion.mobility += end.weight * end.weight * body.inverse_mass;
+  }
+  return motion;
+}
+
 void prepare_springs(const SolverContext& c, const SolverIsland& island) {
   for (SpringRow& row : island.springs) {
     const SolvedSpring& spring = c.springs[row.source];

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace tumble {
 
@@ -29,6 +30,14 @@ struct SolvedSpring {
     end[count++] = {slot, point, weight, Vec3::Zero()};
   }
 };
+
+/// How the ends of a spring lie, move and give way.
+struct SpringMotion {
+  Vec3 q = Vec3::Zero();     ///< [m]
+  Vec3 rate = Vec3::Zero();  ///< of q [m/s]
+  double mobility = 0;       ///< change of the rate by an impulse but for what arms turn [1/kg]
+};
+SpringMotion spring_motion(const SolvedSpring& spring, std::span<const RigidBody> bodies);
 
 /// One of them in the inner loops. Over a sub-step of h seconds it is backward Euler, linearised at
 /// its start (Baraff and Witkin, "Large steps in cloth simulation", 1998): with l the length of q
