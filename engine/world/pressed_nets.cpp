@@ -44,9 +44,13 @@ void PressedNets::number_particles(const WorldState& s) {
     first_of_[k] = next;
     next += uint32_t(p.size());
   }
-  sets_.reset(next);
-  of_.assign(next, 0);
-  pressed_.assign(next, 0);
+  begin_sets(next);
+}
+
+void PressedNets::begin_sets(size_t slots) {
+  sets_.reset(slots);
+  of_.assign(slots, 0);
+  pressed_.assign(slots, 0);
 }
 
 /// Slot of a particle; no_body where it is gone, or has no block.
@@ -130,11 +134,8 @@ void PressedNets::take_mesh(const WorldState& s, const SpringMesh& mesh, uint32_
     take_with(std::span(b.node).first(b.count), b.weight, b.stiffness, b.damping, 0);
 }
 
-void PressedNets::find(const WorldState& s) {
-  clear();
-  const auto ties = [](const auto& force) { return force && is_spring(*force); };
-  if (s.particles.empty() || std::ranges::none_of(s.forces, ties)) return;
-  number_particles(s);
+/// All springs that tie particles with blocks to each other and to bodies.
+void PressedNets::find_nets(const WorldState& s) {
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
     if (const auto* spring = std::get_if<SpringDef>(&*s.forces[i]))
@@ -146,12 +147,46 @@ void PressedNets::find(const WorldState& s) {
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[sets_.root(slot)] |= of_[slot];
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[slot] = of_[sets_.root(slot)];
   std::erase_if(tied_, [this](const Tied& t) { return !in_net(any_end(t.spring)); });
-  take_pressed_before(s);
+}
+
+void PressedNets::note_pulled_apart(const WorldState& s) {
   pulled_apart_.assign(s.forces.size(), 0);
   for (Tied& t : tied_) {
     t.pressed = pressed_[sets_.root(any_end(t.spring))] != 0;
     if (t.pressed) pulled_apart_[t.force] = 1;
   }
+}
+
+namespace {
+
+bool has_springs(const WorldState& s) {
+  const auto ties = [](const auto& force) { return force && is_spring(*force); };
+  return !s.particles.empty() && std::ranges::any_of(s.forces, ties);
+}
+
+}  // namespace
+
+void PressedNets::find(const WorldState& s) {
+  clear();
+  if (!has_springs(s)) return;
+  number_particles(s);
+  find_nets(s);
+  take_pressed_before(s);
+  note_pulled_apart(s);
+}
+
+void PressedNets::find_among(const WorldState& s, std::span<const uint32_t> moving) {
+  clear();
+  if (s.blocks.empty() || !has_springs(s)) return;
+  const std::span<const uint32_t> first = s.blocks.first_slots();
+  first_of_.assign(first.begin(), first.end());
+  first_block_ = std::ranges::min(first_of_);
+  begin_sets(s.bodies.bodies.size());
+  find_nets(s);
+  std::erase_if(
+      tied_, [&](const Tied& t) { return !std::ranges::binary_search(moving, any_end(t.spring)); });
+  pressed_.assign(pressed_.size(), 1);
+  note_pulled_apart(s);
 }
 
 /// What a contact pressed in the tick before takes sub-steps in this one too.
@@ -206,14 +241,15 @@ bool PressedNets::is_outrun(const WorldState& s, const SolvedSpring& spring, dou
          tolerances::stretched_by_turning;
 }
 
-std::span<SolvedSpring> PressedNets::press(WorldState& s, double part) {
+std::span<SolvedSpring> PressedNets::press(WorldState& s, std::span<const Contact> contacts,
+                                           double part, std::span<ForceShare> shares) {
   springs_.clear();
   forces_.clear();
   if (tied_.empty()) return {};
   const auto press_net = [this](uint32_t slot) {
     if (in_net(slot)) pressed_[sets_.root(slot)] = 1;
   };
-  for (const Contact& c : s.contacts.contacts()) {
+  for (const Contact& c : contacts) {
     press_net(c.key.body_a);
     press_net(c.key.body_b);
   }
@@ -223,7 +259,7 @@ std::span<SolvedSpring> PressedNets::press(WorldState& s, double part) {
   }
   for (Tied& t : tied_) {
     if (!pressed_[sets_.root(any_end(t.spring))]) continue;
-    if (!t.pressed) withdraw(s.workspace.books.shares[t.force], s.bodies.bodies);
+    if (!t.pressed) withdraw(shares[t.force], s.bodies.bodies);
     t.pressed = true;
     springs_.push_back(t.spring);
     forces_.push_back(t.force);
@@ -231,13 +267,12 @@ std::span<SolvedSpring> PressedNets::press(WorldState& s, double part) {
   return springs_;
 }
 
-void PressedNets::share(WorldState& s, double part) {
+void PressedNets::share(const WorldState& s, double part, std::span<ForceShare> shares) {
   place_.resize(s.bodies.bodies.size(), 0);
   for (size_t first = 0; first < springs_.size();) {
     size_t last = first;
     while (last < springs_.size() && forces_[last] == forces_[first]) ++last;
-    share_force(s, std::span(springs_).subspan(first, last - first), part,
-                s.workspace.books.shares[forces_[first]]);
+    share_force(s, std::span(springs_).subspan(first, last - first), part, shares[forces_[first]]);
     first = last;
   }
 }

@@ -21,8 +21,12 @@ struct WorldState;
 /// the springs of a net that turns or is crossed too fast for a tick.
 class PressedNets {
  public:
-  /// The nets of a tick, and which were pressed in the one before.
+  /// The nets of a tick whose blocks of particles are still to come, and which were pressed in the
+  /// one before.
   void find(const WorldState& state);
+  /// Those among `moving`, which are sorted and have the blocks of particles with them: bodies that
+  /// meet so much in the tick that time-stepping moves them. All count as pressed.
+  void find_among(const WorldState& state, std::span<const uint32_t> moving);
   /// Whether a force is to be asked for its pull: not where it is known to take sub-steps.
   bool pulls(size_t force) const {
     return force >= pulled_apart_.size() || pulled_apart_[force] == 0;
@@ -32,10 +36,12 @@ class PressedNets {
   /// Between all that springs of these nets tie.
   std::span<const BodyLink> links() const { return links_; }
   /// Now that contacts are known for `part` seconds: the springs of nets that are pressed, in the
-  /// order of the forces. What was pulled by them for the tick is taken out of the force sums.
-  std::span<SolvedSpring> press(WorldState& state, double part);
+  /// order of the forces. What was pulled by them for the tick is taken out of the force sums, and
+  /// of the shares by force.
+  std::span<SolvedSpring> press(WorldState& state, std::span<const Contact> contacts, double part,
+                                std::span<ForceShare> shares);
   /// Notes what these springs did in `part` seconds as what their forces do.
-  void share(WorldState& state, double part);
+  void share(const WorldState& state, double part, std::span<ForceShare> shares);
   void clear();
 
  private:
@@ -46,6 +52,9 @@ class PressedNets {
     bool pressed = false;
   };
   void number_particles(const WorldState& state);
+  void begin_sets(size_t slots);
+  void find_nets(const WorldState& state);
+  void note_pulled_apart(const WorldState& state);
   uint32_t slot_of(const WorldState& state, ParticleSystemId system, uint64_t id) const;
   bool moves(const WorldState& state, uint32_t slot) const;
   bool add_end(const WorldState& state, const Anchor& anchor, double weight, SolvedSpring& spring);

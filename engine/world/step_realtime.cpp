@@ -180,7 +180,8 @@ class BetweenStages final : public TickListener {
   explicit BetweenStages(WorldState& state) : s_(state) {}
   void bounds_known() override { look_around(s_); }
   std::span<SolvedSpring> contacts_known(double part) override {
-    return s_.workspace.pressed_nets.press(s_, part);
+    return s_.workspace.pressed_nets.press(s_, std::as_const(s_.contacts).contacts(), part,
+                                           s_.workspace.books.shares);
   }
   void islands_known() override {
     const ScopedStage stage(s_.profiler, "books");
@@ -189,7 +190,7 @@ class BetweenStages final : public TickListener {
     s_.workspace.books.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
-    s_.workspace.pressed_nets.share(s_, part);
+    s_.workspace.pressed_nets.share(s_, part, s_.workspace.books.shares);
     const ScopedStage stage(s_.profiler, "books");
     s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
                                  s_.joints.energies(s_.bodies.bodies).total()};
@@ -225,14 +226,7 @@ Status move_bodies(WorldState& s) {
   s.stats.contact_points = tick.report.contacts.points;
   s.stats.max_penetration = tick.report.contacts.max_penetration;
   s.stats.islands = s.islands.islands.size();
-  if (done) return {};
-  if (tick.report.crowded) {
-    Error error = done.error();
-    error.place = fmt::format("tick {}, about {}", s.tick + 1, body_label(s, *tick.report.crowded));
-    return error;
-  }
-  const Status named = check_finite(s);
-  return named ? done.error() : named.error();
+  return outcome_of_stages(s, tick.report, done);
 }
 
 Status run_stages(WorldState& s) {

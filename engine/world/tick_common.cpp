@@ -158,10 +158,25 @@ RealtimeTick realtime_tick(WorldState& s, const TickChoice& choice) {
 }
 
 Status outcome_of_tick(const WorldState& s, Status status) {
-  if (!stop_requested()) return status;
-  Error stopped = stopped_error();
-  stopped.place = fmt::format("tick {}", s.tick + 1);
-  return stopped;
+  const std::string tick = fmt::format("tick {}", s.tick + 1);
+  if (!stop_requested() && status) return status;
+  Error error = stop_requested() ? stopped_error() : status.error();
+  if (error.place.empty())
+    error.place = tick;
+  else if (!error.place.starts_with("tick "))
+    error.place = tick + ", " + error.place;
+  return error;
+}
+
+Status outcome_of_stages(const WorldState& s, const TickReport& report, const Status& done) {
+  if (done) return {};
+  if (report.crowded) {
+    Error error = done.error();
+    error.place = "about " + body_label(s, *report.crowded);
+    return error;
+  }
+  const Status named = check_finite(s);
+  return named ? done : named;
 }
 
 void integrate_particles(WorldState& s) {

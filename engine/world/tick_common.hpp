@@ -5,6 +5,7 @@ namespace tumble {
 
 class TickListener;
 struct RealtimeTick;
+struct TickReport;
 
 /// What ties bodies together besides contacts: springs, then joints. Until the next call.
 const std::vector<BodyLink>& body_links(WorldState& state);
@@ -26,8 +27,11 @@ struct TickChoice {
 RealtimeTick realtime_tick(WorldState& state, const TickChoice& choice);
 
 /// What a tick gives in the end: when somebody asked it to stop, that, whatever it had found by
-/// then.
+/// then. An error says in which tick.
 Status outcome_of_tick(const WorldState& state, Status status);
+
+/// What the stages of a RealtimeTick gave, with the body or particle that is to blame.
+Status outcome_of_stages(const WorldState& state, const TickReport& report, const Status& done);
 
 /// Names the first body or particle whose state is not finite.
 Status check_finite(const WorldState& state);

@@ -1,6 +1,7 @@
 #include "engine/world/time_stepping.hpp"
 
 #include "engine/dynamics/realtime/tick_groups.hpp"
+#include "engine/world/apart.hpp"
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
@@ -21,13 +22,18 @@ void hold_others(std::span<const RigidBody> bodies, std::span<const uint32_t> mo
 /// Books between the stages.
 class TimeSteppingBooks final : public TickListener {
  public:
-  TimeSteppingBooks(WorldState& state, const ContactSet& contacts, RealtimeBooks& books)
-      : s_(state), contacts_(contacts), books_(books) {}
+  TimeSteppingBooks(WorldState& state, const ContactSet& contacts, PressedNets& nets,
+                    RealtimeBooks& books)
+      : s_(state), contacts_(contacts), nets_(nets), books_(books) {}
+  std::span<SolvedSpring> contacts_known(double part) override {
+    return nets_.press(s_, contacts_.contacts(), part, books_.shares);
+  }
   void islands_known() override {
     books_.joints = {s_.joints.joints, {}, s_.joints.energies(s_.bodies.bodies).total()};
     books_.begin_part(s_.bodies.bodies, s_.islands.involved, *s_.crew);
   }
   void solved(double part) override {
+    nets_.share(s_, part, books_.shares);
     books_.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
                      s_.joints.energies(s_.bodies.bodies).total()};
     books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
@@ -40,6 +46,7 @@ class TimeSteppingBooks final : public TickListener {
  private:
   WorldState& s_;
   const ContactSet& contacts_;
+  PressedNets& nets_;
   RealtimeBooks& books_;
 };
 
@@ -75,7 +82,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
     ledger_ = s.ledger;
     joints_ = s.joints.joints;
     couplings_ = s.joints.couplings;
-    s.joints.find_apart(s.bodies.bodies, apart_);
+    find_apart(s, apart_);
     links_ = block_links(s);
     s.contacts.for_each([this](const Contact& c) { known_.push_back(c); });
     std::ranges::sort(known_, {}, &Contact::key);
@@ -83,7 +90,10 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   s.ledger = *ledger_;
   s.joints.joints = joints_;
   s.joints.couplings = couplings_;
-  forces_.share(bodies, books_.shares);
+  nets_.find_among(s, bodies);
+  nets_.tie_blocks(s.bodies.bodies);
+  forces_.share(
+      bodies, [this](size_t force) { return nets_.pulls(force); }, books_.shares);
   std::vector<Contact> known;
   const auto moves = [bodies](uint32_t slot) { return std::ranges::binary_search(bodies, slot); };
   for (const Contact& c : known_)
@@ -95,21 +105,20 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
 
 Status WorldTimeStepping::run() {
   WorldState& s = state_;
-  TimeSteppingBooks books(s, contacts_, books_);
+  TimeSteppingBooks books(s, contacts_, nets_, books_);
   RealtimeTick tick = realtime_tick(s, {settings_, links_, apart_, contacts_, books});
   tick.close = true;
-  return tick.run();
+  const Status done = tick.run();
+  return outcome_of_stages(s, tick.report, done);
 }
 
 Status WorldTimeStepping::advance(std::span<const uint32_t> bodies) {
   HeldBodies others(state_.bodies.bodies);
   hold_others(state_.bodies.bodies, bodies, others);
   start_again(bodies);
-  const Status done = run();
+  Status done = run();
   state_.roster.forget();
-  if (done) return {};
-  const Status named = check_finite(state_);
-  return named ? done : named;
+  return done;
 }
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include "engine/dynamics/realtime/tick.hpp"
 #include "engine/world/ledger/ledger.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
+#include "engine/world/pressed_nets.hpp"
 #include "engine/world/tick_forces.hpp"
 
 #include <optional>
@@ -37,6 +38,7 @@ class WorldTimeStepping final : public TimeStepping {
   PairFilter apart_;
   std::vector<BodyLink> links_;
   ContactSet contacts_;
+  PressedNets nets_;  ///< of what is moved: their springs are solved with its contacts
   RealtimeBooks books_;
   // As they were at the start of the tick, for each advance().
   std::optional<Ledger> ledger_;

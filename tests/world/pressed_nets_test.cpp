@@ -143,6 +143,49 @@ TEST_CASE("a net that falls on the ground or a ball gains no energy") {
       }
 }
 
+TEST_CASE("event: a net that is time-stepped gains no energy where it meets something") {
+  for (const double stiffness : {200.0, 2e4}) {
+    CAPTURE(stiffness);
+    WorldSettings s = settings(60);
+    s.stepper = "event";
+    TestWorld w(s, 1, "time-stepping moved them");
+    w.ground();
+    Lattice l;
+    l.stiffness = stiffness;
+    l.damping = 0;
+    l.velocity = Vec3(0.5, -5, 0);
+    add_lattice(w, l);
+    CHECK(worst_rise(w, 0.3) < 0.01);
+    CHECK(w->frame()->stats.time_stepped > 0);
+  }
+}
+
+TEST_CASE("event: a rope on which a heavy ball hangs gains no energy when it is time-stepped") {
+  WorldSettings s = settings(60);
+  s.stepper = "event";
+  TestWorld w(s, 1, "time-stepping moved them");
+  BodyDef def = TestWorld::sphere_def({2, 3.5, 0}, 0.2);
+  def.mass = 100;
+  const BodyId ball = w.add(def);
+  RopeDef rope;
+  rope.places.resize(2);
+  rope.places[0].anchor.point = rope.places[0].x = Vec3(0, 3.5, 0);
+  rope.places[1].anchor = {Anchor::Kind::body, ball, {}, 0, Vec3::Zero()};
+  rope.places[1].x = def.pose.x;
+  rope.segments = 20;
+  rope.density = 0.05;
+  rope.stiffness = 1e5;
+  Result<Weave> weave = weave_rope(rope);
+  REQUIRE(weave.ok());
+  ParticleSystemDef particles;
+  particles.particles = weave->particles;
+  const auto id = w->create_particles(particles);
+  REQUIRE(id.ok());
+  w.apply();
+  w.force(tie(std::move(*weave), *id, 1));
+  CHECK(worst_rise(w, 0.5) < 0.01);
+}
+
 TEST_CASE("a net at rest on the ground lies on it, and presses with its weight") {
   for (const double stiffness : {200.0, 2e4}) {
     CAPTURE(stiffness);

@@ -299,7 +299,8 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     find_pairs(bodies, broad_phase, context.apart);
     if (auto crowd = tries == 0 ? find_crowd(proxies_, pairs_) : std::nullopt) {
       crowd->error.place = "about " + context.name(crowd->slot);
-      return crowd->error;
+      if (!context.time_stepping) return crowd->error;
+      for (const uint32_t slot : moving) carried_[slot] = true;
     }
     build_groups(bodies, {context.joints, context.couplings}, links);
     if (tries == 0 && foresee_crowds(context)) continue;
