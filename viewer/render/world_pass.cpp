@@ -180,6 +180,17 @@ void WorldPass::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, 
   }
 }
 
+/// The depth of what is solid for liquids and smoke, of one sample: the ground costs a tenth of
+/// what it costs among the samples of the canvas.
+void WorldPass::draw_solid_depth(const CanvasParts& parts, const Layers& layers) {
+  PassDesc pass{soft_.solid(), {}, true};
+  pass.depth_of = targets_->canvas();
+  pass.depth_parts = parts.solid;
+  device_.begin_pass(pass);
+  if (layers.ground_under) draw_ground_depth(parts.solid);
+  device_.end_pass();
+}
+
 /// What needs every sample: edges of bodies, and the ground too unless it comes `under` them later.
 /// Leaves its last pass open.
 void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
@@ -192,8 +203,9 @@ void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
   if (!layers.ground_under) draw_background(scene, setup, false);
   if (soft) {
     device_.end_pass();
-    soft_.draw_liquids(scene, setup, canvas, parts.solid, call({}));
-    soft_.draw_smoke(scene, setup, call({}));
+    draw_solid_depth(parts, layers);
+    soft_.draw_liquids(scene, setup, canvas, call({}));
+    soft_.draw_smoke(scene, call({}));
     device_.begin_pass({canvas, {}, false});
   }
   draw_blended(scene);
@@ -241,6 +253,7 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   fill_buffers(setup, lines, points);
 
   draw_shadow_passes(scene, setup);
+  if (soft) soft_.plan(scene, setup);
   Layers layers;
   // Liquids look through to what is behind them.
   layers.ground_under =
@@ -251,9 +264,9 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   const std::vector<ScissorRect> whole = {{0, 0, width, height}};
   CanvasParts parts;
   parts.drawn = marks || !scene.fluids.empty() ? whole : drawn_parts(scene, setup.view);
-  // The shade of smoke falls on the ground too, at its depth.
-  parts.solid = soft ? whole : parts.drawn;
-  parts.below_ground = marks || soft ? whole : sunken_parts(scene, setup.view);
+  parts.below_ground = marks ? whole : sunken_parts(scene, setup.view);
+  const auto smoke = soft_.smoke_places();
+  parts.solid = scene.fluids.empty() ? std::vector(smoke.begin(), smoke.end()) : whole;
   draw_canvas(scene, setup, parts, layers);
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);

@@ -35,9 +35,9 @@ class WorldPass {
   };
   /// Of the canvas.
   struct CanvasParts {
-    std::vector<ScissorRect> solid;         ///< hold all bodies
     std::vector<ScissorRect> drawn;         ///< hold all that is drawn but the ground
     std::vector<ScissorRect> below_ground;  ///< hold what the ground hides
+    std::vector<ScissorRect> solid;  ///< hold what of them liquids and smoke ask the depth of
   };
 
   DrawCall call(PipelineId pipeline) const;
@@ -51,6 +51,7 @@ class WorldPass {
   void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
                    const std::optional<ScissorRect>& within = {});
   void draw_ground_depth(std::span<const ScissorRect> parts);
+  void draw_solid_depth(const CanvasParts& parts, const Layers& layers);
   void draw_bodies(const RenderScene& scene);
   void draw_background(const RenderScene& scene, const FrameSetup& setup, bool under);
   void draw_canvas(const RenderScene& scene, const FrameSetup& setup, const CanvasParts& parts,
