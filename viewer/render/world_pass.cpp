@@ -46,11 +46,12 @@ void WorldPass::fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& l
   ground_triangles_.fill(std::as_bytes(std::span(ground_plan_.triangles)));
 }
 
-void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open,
-                             PipelineId ball) {
+void WorldPass::draw_batches(const std::vector<Batch>& batches,
+                             const std::array<BodyPipelines, 2>& pipelines) {
   for (const Batch& b : batches) {
     const MeshCache::Entry& mesh = meshes_.get(*b.mesh, frame_);
-    DrawCall c = call(b.mesh->ball ? ball : b.mesh->two_sided ? open : closed);
+    const BodyPipelines& p = pipelines[b.patterned];
+    DrawCall c = call(b.mesh->ball ? p.ball : b.mesh->two_sided ? p.two_sided : p.closed);
     c.vertices = mesh.vertices;
     c.indices = mesh.indices;
     c.count = mesh.index_count;
@@ -59,6 +60,12 @@ void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId close
     c.instance_count = b.count;
     device_.draw(c);
   }
+}
+
+void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId closed,
+                             PipelineId open) {
+  const BodyPipelines all{closed, open, {}};
+  draw_batches(batches, {all, all});
 }
 
 void WorldPass::draw_spheres(const SphereRun& run, PipelineId pipeline) {
@@ -75,6 +82,7 @@ void WorldPass::draw_shadow_passes(const RenderScene& scene, const FrameSetup& s
   if (setup.shadows) {
     draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
     draw_spheres(plan_.sphere_casters, pipelines_.sphere_shadow);
+    draw_spheres(plan_.ball_casters, pipelines_.sphere_shadow);
   }
   device_.end_pass();
 
@@ -126,8 +134,7 @@ void WorldPass::draw_ground_depth(std::span<const ScissorRect> parts) {
 
 void WorldPass::draw_bodies(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
-  draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
-               pipelines_.ball[fine]);
+  draw_batches(plan_.opaque, pipelines_.bodies[fine]);
   draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
 }

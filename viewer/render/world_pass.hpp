@@ -43,9 +43,11 @@ class WorldPass {
   DrawCall call(PipelineId pipeline) const;
   void fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& lines,
                     const MarkRuns<GpuPoint>& points);
-  /// Balls come in the opaque layer only.
-  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open,
-                    PipelineId ball = {});
+  /// With those for plain bodies and those for patterned ones.
+  void draw_batches(const std::vector<Batch>& batches,
+                    const std::array<BodyPipelines, 2>& pipelines);
+  /// Layers without balls, whatever the pattern.
+  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
