@@ -22,10 +22,12 @@ void main() {
   float depth = sqrt(max(v_sphere.w * v_sphere.w - miss2, 0.0));
   vec3 at = nearest - depth * along;  // from the centre
   vec3 base = v_colour.rgb;
+#ifdef PATTERNED
   // Before anything is discarded: its edges are as wide as the neighbours' differences say.
   if (v_pattern.x > 0.5)
     base *= pattern_tone(vec3(dot(axis0.xyz, at), dot(axis1.xyz, at),
                               dot(cross(axis0.xyz, axis1.xyz), at)), v_pattern);
+#endif
   if (cover < 0.1) discard;
   vec3 to_eye = from_centre - at;
   gl_FragDepth = axis0.w - axis1.w / dot(v_ahead.xyz, to_eye);

@@ -31,7 +31,7 @@ void main() {
   float d = length(to);
   float sine = min(radius / d, 0.98);
   float pixel = 2.0 * length(view_up.xyz) / picture.y * d;
-  float reach = 2.0 * (radius * inversesqrt(1.0 - sine * sine) + pixel);
+  float reach = 2.0 * (radius * inversesqrt(1.0 - sine * sine) + 0.6 * pixel);
   vec3 right = normalize(cross(to, view_up.xyz));
   vec3 up = cross(right, to / d);
   vec3 on_card = centre + reach * (position.x * right + position.y * up);

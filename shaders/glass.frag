@@ -1,3 +1,4 @@
 #version 330 core
 #define GLASS
+#define PATTERNED
 #include "surface.glsl"

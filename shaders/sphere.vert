@@ -15,7 +15,7 @@ void main() {
   float d = length(to);
   float sine = min(sphere.w / d, 0.98);
   pixel = 2.0 * length(view_up.xyz) / picture.y * d;
-  float reach = 2.0 * (sphere.w * inversesqrt(1.0 - sine * sine) + pixel);
+  float reach = 2.0 * (sphere.w * inversesqrt(1.0 - sine * sine) + 0.6 * pixel);
   vec3 right = normalize(cross(to, view_up.xyz));
   vec3 up = cross(right, to / d);
   int corner = gl_VertexID % 3;

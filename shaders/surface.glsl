@@ -16,7 +16,9 @@ void main() {
   float unit = inversesqrt(max(dot(world_normal, world_normal), 1e-12)) * (gl_FrontFacing ? 1.0 : -1.0);
   vec3 n = unit * world_normal;
   vec3 base = v_colour.rgb;
+#ifdef PATTERNED
   if (v_pattern.x > 0.5) base *= pattern_tone(body, v_pattern);
+#endif
   Place place = Place(to_eye, in_shadow + unit * shadow_step, on_ground);
 #ifdef GLASS
   picture_out = lit_glass(place, n, base, v_colour.a, v_look.xyz);

@@ -118,6 +118,10 @@ struct PassDesc {
   /// parts, at least one.
   TargetId averages{};
   std::vector<ScissorRect> averaged_parts{};
+  /// Then its depth, cleared, is in these parts that of one sample of another target of the same
+  /// size.
+  TargetId depth_of{};
+  std::vector<ScissorRect> depth_parts{};
 };
 
 struct UniformRange {
@@ -191,9 +195,6 @@ class Device {
   virtual void end_pass() = 0;
   /// Copies colour, averaging samples; equal sizes, outside a pass.
   virtual void resolve(TargetId from, TargetId to) = 0;
-  /// Copies the depth of one sample to a target that has its depth as a texture, in these parts; as
-  /// `resolve`. Elsewhere nothing is near.
-  virtual void resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) = 0;
   /// RGBA rows, top row first, of a target of one sample; waits for the drawing to end.
   virtual void read_pixels(TargetId target, std::span<uint8_t> rgba) = 0;
   /// Copies a target of one sample to the window's own framebuffer, top left aligned.

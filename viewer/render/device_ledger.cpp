@@ -175,7 +175,10 @@ bool DeviceLedger::begin_pass(const PassDesc& pass) {
   current_ = pass.target;
   ++stats_.passes;
   const Target* averaged = targets_.find(pass.averages);
-  if (pass.averages && !check_average(pass, averaged, t)) return std::exchange(current_, {}), false;
+  const Target* nearest = targets_.find(pass.depth_of);
+  if ((pass.averages && !check_average(pass, averaged, t)) ||
+      (pass.depth_of && !check_depth(pass, nearest, t)))
+    return std::exchange(current_, {}), false;
   const int32_t shape[] = {t->desc.width,       t->desc.height,     t->desc.samples,
                            int(t->desc.colour), int(t->desc.depth), int(pass.clear_depth)};
   mix(shape);
@@ -184,16 +187,20 @@ bool DeviceLedger::begin_pass(const PassDesc& pass) {
   const bool all = depth_is_fresh_ &&
                    (pass.clear_colour || averaged || t->desc.colour == ColourAttachment::none);
   pass_content_ = hash_bytes(shape, sizeof shape, all ? 1 : t->held);
-  if (averaged) {
-    mix(averaged->desc.samples);
-    const auto parts = std::as_bytes(std::span(pass.averaged_parts));
-    mix(parts.data(), parts.size());
-    pass_content_ = hash_bytes(parts, pass_content_);
-    pass_content_ = hash_bytes(&averaged->held, sizeof averaged->held, pass_content_);
-  }
+  if (averaged) take_from(*averaged, pass.averaged_parts);
+  if (nearest) take_from(*nearest, pass.depth_parts);
+  depth_is_fresh_ &= !nearest;
   if (pass.clear_colour)
     pass_content_ = hash_bytes(&*pass.clear_colour, sizeof *pass.clear_colour, pass_content_);
   return true;
+}
+
+void DeviceLedger::take_from(const Target& from, std::span<const ScissorRect> parts) {
+  mix(from.desc.samples);
+  const auto bytes = std::as_bytes(parts);
+  mix(bytes.data(), bytes.size());
+  pass_content_ = hash_bytes(bytes, pass_content_);
+  pass_content_ = hash_bytes(&from.held, sizeof from.held, pass_content_);
 }
 
 bool DeviceLedger::end_pass() {
@@ -217,6 +224,22 @@ bool DeviceLedger::check_average(const PassDesc& pass, const Target* from, const
   else if (pass.averaged_parts.empty() || !all_lie_within(pass.averaged_parts, to->desc))
     wrong = "no part, or one outside the target";
   if (wrong) fault(std::string("begin_pass with the average of ") + wrong);
+  return !wrong;
+}
+
+bool DeviceLedger::check_depth(const PassDesc& pass, const Target* from, const Target* to) {
+  const char* wrong = nullptr;
+  if (!from)
+    wrong = "a target that does not exist";
+  else if (from == to)
+    wrong = "the target itself";
+  else if (from->desc.width != to->desc.width || from->desc.height != to->desc.height)
+    wrong = "a target of another size";
+  else if (from->desc.depth == DepthAttachment::none || !to->depth || !pass.clear_depth)
+    wrong = "a target without depth, or into one that keeps its own";
+  else if (!all_lie_within(pass.depth_parts, to->desc))
+    wrong = "a part outside the target";
+  if (wrong) fault(std::string("begin_pass with the depth of ") + wrong);
   return !wrong;
 }
 
@@ -244,24 +267,6 @@ bool DeviceLedger::resolve(TargetId from, TargetId to) {
   return true;
 }
 
-bool DeviceLedger::resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) {
-  const Target* a = targets_.find(from);
-  Target* b = targets_.find(to);
-  if (!check_resolve(a, b)) return false;
-  if (!b->depth || a->desc.depth == DepthAttachment::none) {
-    fault("resolve of depth between targets of which one has none");
-    return false;
-  }
-  if (!all_lie_within(parts, b->desc)) {
-    fault("resolve of depth in a part outside the target");
-    return false;
-  }
-  note_content(
-      b->held_depth,
-      a->held ? hash_bytes(std::as_bytes(parts), hash_bytes(&a->held, sizeof a->held)) : 0);
-  return true;
-}
-
 void DeviceLedger::note_content(uint64_t& held, uint64_t content) {
   kept_ = content != 0 && held == content;
   stats_.kept += kept_;
@@ -269,7 +274,7 @@ void DeviceLedger::note_content(uint64_t& held, uint64_t content) {
 }
 
 void DeviceLedger::forget_contents() {
-  targets_.for_each([](Target& t) { t.held = t.held_depth = 0; });
+  targets_.for_each([](Target& t) { t.held = 0; });
 }
 
 bool DeviceLedger::read_pixels(TargetId target, size_t bytes) {

@@ -77,8 +77,7 @@ class DeviceLedger {
   struct Target {
     TargetDesc desc;
     TextureId colour, depth;
-    uint64_t held = 0;        ///< hash of all that decided what is in it; 0: unknown
-    uint64_t held_depth = 0;  ///< the same of a depth that was copied into it
+    uint64_t held = 0;  ///< hash of all that decided what is in it; 0: unknown
     unsigned native = 0;
     unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
   };
@@ -107,7 +106,6 @@ class DeviceLedger {
   bool draw(const DrawCall& call);
   bool end_pass();
   bool resolve(TargetId from, TargetId to);
-  bool resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts);
   /// Whether what the last pass or resolve gives was in its target already.
   bool kept() const { return kept_; }
   /// Nobody knows any more what is in the targets.
@@ -143,6 +141,9 @@ class DeviceLedger {
   uint64_t hash_of(const DrawCall& call, const Pipeline& pipeline, uint64_t seed);
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
   bool check_average(const PassDesc& pass, const Target* from, const Target* to);
+  bool check_depth(const PassDesc& pass, const Target* from, const Target* to);
+  /// The open pass begins with parts of what another target holds.
+  void take_from(const Target& from, std::span<const ScissorRect> parts);
   bool check_resolve(const Target* from, const Target* to);
   void note_content(uint64_t& held, uint64_t content);
 

@@ -142,8 +142,7 @@ void DeviceLedger::hash_draw(const DrawCall& call, const Pipeline& pipeline) {
   pass_content_ = hash_of(call, pipeline, pass_content_);
   for (size_t i = 0; i < d.textures.size(); ++i)
     if (const Target* source = targets_.find(textures_.find(call.textures[i])->owner))
-      for (const uint64_t held : {source->held, source->held_depth})
-        pass_content_ = hash_bytes(&held, sizeof held, pass_content_);
+      pass_content_ = hash_bytes(&source->held, sizeof source->held, pass_content_);
   ++stats_.draws;
   stats_.instances += call.instance_count;
   const uint64_t triangles = d.topology == Topology::triangles ? call.count / 3 : call.count - 2;

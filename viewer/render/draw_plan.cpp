@@ -17,6 +17,7 @@ struct Item {
   const MeshRef* mesh;  ///< of the scene, or a coarser version
   float order;          ///< within the mesh; for blended ones over all meshes
   uint32_t source;      ///< in the entries
+  bool patterned;       ///< see Batch
 };
 
 /// A body that is drawn somewhere.
@@ -106,6 +107,7 @@ class Planner {
     sort_items();
     emit();
   }
+  const std::vector<GpuSphere>& ball_casters() const { return ball_casters_; }
 
  private:
   void add(const Entry& e) {
@@ -127,12 +129,18 @@ class Planner {
       if (e.selected) push(Layer::outlined, mesh, 0, source);
     }
     // Shadows are blurred: half the detail does.
-    if (casts) push(Layer::casters, detail(*e.mesh, 0.4 * pixels, 0.4 * inflate), 0, source);
+    if (casts && e.ball)
+      ball_casters_.push_back({{float(e.centre.x()), float(e.centre.y()), float(e.centre.z())},
+                               float(e.ball_radius),
+                               e.gpu.colour});
+    else if (casts)
+      push(Layer::casters, detail(*e.mesh, 0.4 * pixels, 0.4 * inflate), 0, source);
     if (casts && e.centre.y() - e.radius < view_.contact_below)
       push(Layer::low, detail(*e.mesh, 0, 0), 0, source);
   }
   void push(Layer layer, const MeshRef& mesh, float order, uint32_t source) {
-    items_.push_back({layer, &mesh, order, source});
+    const bool patterned = layer == Layer::opaque && entries_[source].gpu.pattern[0] > 0.5f;
+    items_.push_back({layer, &mesh, order, source, patterned});
   }
 
   /// Cards are tested for depth after they are shaded: what stands behind other balls costs as much
@@ -166,6 +174,7 @@ class Planner {
       if (a.layer != b.layer) return a.layer < b.layer;
       if (a.layer != Layer::blended && a.mesh != b.mesh && (*a.mesh)->id != (*b.mesh)->id)
         return (*a.mesh)->id < (*b.mesh)->id;
+      if (a.patterned != b.patterned) return b.patterned;
       if (a.order != b.order) return a.order < b.order;
       return a.source < b.source;
     });
@@ -180,20 +189,13 @@ class Planner {
                                  : item.layer == Layer::outlined ? plan_.outlined
                                  : item.layer == Layer::casters  ? plan_.casters
                                                                  : plan_.low;
-      const bool joins = last && last->layer == item.layer && (*last->mesh)->id == (*item.mesh)->id;
-      if (!joins) list.push_back({*item.mesh, uint32_t(plan_.instances.size()), 0});
+      const bool joins = last && last->layer == item.layer &&
+                         (*last->mesh)->id == (*item.mesh)->id && last->patterned == item.patterned;
+      if (!joins) list.push_back({*item.mesh, uint32_t(plan_.instances.size()), 0, item.patterned});
       ++list.back().count;
       plan_.instances.push_back(fitted(item));
       last = &item;
     }
-  }
-
-  /// Spheres of triangles stand out of the true one at their corners, which would be dots of shadow
-  /// on the ball that is drawn.
-  static void stay_inside(const MeshData& sphere, GpuInstance& g) {
-    const float shrink = 1 / std::max(1.0f, sphere.reach);
-    for (auto& row : g.rows)
-      for (size_t c = 0; c < 3; ++c) row[c] *= shrink;
   }
 
   GpuInstance fitted(const Item& item) const {
@@ -209,7 +211,6 @@ class Planner {
       }
       g.look[3] = 0;
     }
-    if (item.layer == Layer::casters && e.ball) stay_inside(**item.mesh, g);
     if (e.selected && item.layer != Layer::outlined)  // the outline may be hidden in a heap
       for (size_t c = 0; c < 3; ++c)
         g.colour[c] += 0.3f * (scene_.selection_colour[int(c)] - g.colour[c]);
@@ -230,13 +231,19 @@ class Planner {
   Frustum frustum_;
   std::vector<Entry> entries_;
   std::vector<Item> items_;
+  std::vector<GpuSphere> ball_casters_;
 };
 
 }  // namespace
 
 void make_draw_plan(const RenderScene& scene, const ViewSetup& view, DrawPlan& plan) {
-  Planner(scene, view, plan).run();
+  Planner planner(scene, view, plan);
+  planner.run();
   plan_spheres(scene, view, plan);
+  const std::vector<GpuSphere>& balls = planner.ball_casters();
+  plan.ball_casters = {uint32_t(plan.sphere_vertices.size() / 3), uint32_t(balls.size())};
+  for (const GpuSphere& ball : balls)
+    plan.sphere_vertices.insert(plan.sphere_vertices.end(), 3, ball);
 }
 
 }  // namespace tumble

@@ -9,6 +9,7 @@ struct Batch {
   MeshRef mesh;
   uint32_t first = 0;  ///< in DrawPlan::instances
   uint32_t count = 0;
+  bool patterned = false;  ///< in the opaque layer: the others' shaders ask each instance
 };
 
 /// Particles that one call draws.
@@ -21,13 +22,14 @@ struct SphereRun {
 /// shadows. Depends on nothing but the scene and the size of the picture.
 struct DrawPlan {
   std::vector<GpuInstance> instances;
-  std::vector<Batch> opaque;    ///< near to far within a mesh
+  std::vector<Batch> opaque;    ///< near to far within a mesh, plain ones first
   std::vector<Batch> blended;   ///< far to near
   std::vector<Batch> outlined;  ///< selected ones, grown
-  std::vector<Batch> casters;
-  std::vector<Batch> low;  ///< casters near enough to the ground for contact shade, coarse
+  std::vector<Batch> casters;   ///< without balls
+  std::vector<Batch> low;       ///< casters near enough to the ground for contact shade, coarse
   std::vector<GpuSphere> sphere_vertices;  ///< three equal ones a particle, sorted into runs
   SphereRun opaque_spheres, blended_spheres, sphere_casters, low_spheres;
+  SphereRun ball_casters;  ///< bodies that cast the shadow of a particle
   uint32_t visible = 0;
   uint32_t culled = 0;
 };

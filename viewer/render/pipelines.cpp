@@ -121,6 +121,22 @@ class Maker {
   Status status_;
 };
 
+BodyPipelines make_bodies(Maker& maker, size_t fine, size_t patterned) {
+  constexpr const char* surface[2][2] = {{"surface.frag", "surface_patterned.frag"},
+                                         {"surface_fine.frag", "surface_fine_patterned.frag"}};
+  constexpr const char* ball[2][2] = {{"ball.frag", "ball_patterned.frag"},
+                                      {"ball_fine.frag", "ball_fine_patterned.frag"}};
+  BodyPipelines p;
+  PipelineDesc d = surface_desc();
+  d.textures = {"shadow_map", "contact_map"};
+  p.closed = maker.make("surface", d, "surface.vert", surface[fine][patterned]);
+  d.cull = Cull::none;
+  p.two_sided = maker.make("surface_two_sided", d, "surface.vert", surface[fine][patterned]);
+  d.alpha_to_coverage = true;
+  p.ball = maker.make("ball", d, "ball.vert", ball[fine][patterned]);
+  return p;
+}
+
 /// Of liquids and smoke.
 void make_soft(Maker& maker, Pipelines& p) {
   PipelineDesc d = soft_screen_desc({"shadow_map", "scene_depth", "sun_veil"});
@@ -162,23 +178,15 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   Pipelines p;
   PipelineDesc d;
   for (const size_t fine : {0u, 1u}) {
-    const char* fragment = fine ? "surface_fine.frag" : "surface.frag";
+    for (const size_t patterned : {0u, 1u})
+      p.bodies[fine][patterned] = make_bodies(maker, fine, patterned);
     d = surface_desc();
     d.textures = {"shadow_map", "contact_map"};
-    p.surface[fine] = maker.make("surface", d, "surface.vert", fragment);
     d.cull = Cull::none;
-    p.surface_two_sided[fine] = maker.make("surface_two_sided", d, "surface.vert", fragment);
     d.blend = Blend::premultiplied;
     d.depth_write = false;
     p.surface_blended[fine] =
         maker.make("surface_blended", d, "surface.vert", fine ? "glass_fine.frag" : "glass.frag");
-  }
-  for (const size_t fine : {0u, 1u}) {
-    d = surface_desc();
-    d.textures = {"shadow_map", "contact_map"};
-    d.cull = Cull::none;
-    d.alpha_to_coverage = true;
-    p.ball[fine] = maker.make("ball", d, "ball.vert", fine ? "ball_fine.frag" : "ball.frag");
   }
   for (const size_t fine : {0u, 1u}) {
     const char* fragment = fine ? "sphere_fine.frag" : "sphere.frag";
@@ -267,14 +275,14 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
 }
 
 void Pipelines::destroy(Device& device) {
-  for (PipelineId* id : {&surface[0],
-                         &surface[1],
-                         &surface_two_sided[0],
-                         &surface_two_sided[1],
-                         &surface_blended[0],
+  for (auto& shading : bodies)
+    for (BodyPipelines& b : shading)
+      for (PipelineId* id : {&b.closed, &b.two_sided, &b.ball}) {
+        if (*id) device.destroy(*id);
+        *id = {};
+      }
+  for (PipelineId* id : {&surface_blended[0],
                          &surface_blended[1],
-                         &ball[0],
-                         &ball[1],
                          &sphere[0],
                          &sphere[1],
                          &sphere_blended[0],

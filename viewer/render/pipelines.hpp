@@ -6,12 +6,18 @@
 
 namespace tumble {
 
+/// For bodies: with closed surfaces, open ones, and balls that the shader finds.
+struct BodyPipelines {
+  PipelineId closed, two_sided, ball;
+};
+
 /// Every pipeline of the renderer. Bindings: textures shadow_map, contact_map (or image, source);
 /// uniform blocks Frame (or Ui).
 struct Pipelines {
-  /// [0] cheap shading, [1] fine.
-  std::array<PipelineId, 2> surface, surface_two_sided, surface_blended;
-  std::array<PipelineId, 2> ball;
+  /// [0] cheap shading, [1] fine; of bodies then [0] plain, [1] with a pattern, as a shader of a
+  /// software renderer works for what it leaves out.
+  std::array<std::array<BodyPipelines, 2>, 2> bodies;
+  std::array<PipelineId, 2> surface_blended;
   std::array<PipelineId, 2> sphere, sphere_blended;
   PipelineId outline;
   PipelineId shadow, shadow_two_sided, sphere_shadow;

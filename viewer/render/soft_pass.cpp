@@ -66,7 +66,7 @@ Status SoftPass::make(TargetId& target, const TargetDesc& desc) {
 }
 
 void SoftPass::release() {
-  for (TargetId* t : {&behind_, &front_, &other_, &thickness_, &smoke_}) {
+  for (TargetId* t : {&solid_, &behind_, &front_, &other_, &thickness_, &smoke_}) {
     if (*t) device_.destroy(*t);
     *t = {};
   }
@@ -86,8 +86,11 @@ Status SoftPass::prepare(int width, int height, Quality quality) {
   TargetDesc d;
   d.width = width;
   d.height = height;
-  d.depth = DepthAttachment::texture;
+  d.depth = DepthAttachment::none;
   Status s = make(behind_, d);
+  d.colour = ColourAttachment::none;
+  d.depth = DepthAttachment::texture;
+  if (s) s = make(solid_, d);
   d.colour = ColourAttachment::r32f;
   d.depth = DepthAttachment::buffer;
   if (s) s = make(front_, d);
@@ -119,15 +122,32 @@ DrawCall SoftPass::call(const DrawCall& base, PipelineId pipeline,
   return c;
 }
 
-void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
-                          const DrawCall& base) {
+void SoftPass::plan(const RenderScene& scene, const FrameSetup& setup) {
+  soft_ = {};
+  soft_.depths = {float(setup.camera.near), float(setup.camera.far),
+                  float(setup.view.pixels_per_radian), float(smoke_scale_)};
+  plan_shade(scene, setup);
+  smoke_puffs_ = plan_smoke(scene, setup.view, veil_);
+  SmokeShade shade;
+  // With liquids shade has a colour, and is laid over the canvas.
+  shade.falls = shade_area_ && scene.fluids.empty();
+  if (shade.falls) {
+    const auto& sun = setup.uniforms.to_sun;
+    shade.to_sun = Vec3(double(sun[0]), double(sun[1]), double(sun[2]));
+    shade.lowest = setup.lowest;
+    shade.blur = 2 / (veil_.veil_from_world.row(0).head<3>().norm() * veil_.size);
+  }
+  smoke_parts_ = smoke_parts(scene, smoke_puffs_, shade, setup.view);
+}
+
+void SoftPass::plan_shade(const RenderScene& scene, const FrameSetup& setup) {
   const Vec3 to_sun(setup.uniforms.to_sun[0], setup.uniforms.to_sun[1], setup.uniforms.to_sun[2]);
   const int size = scene.quality == Quality::high ? 512 : 256;
   make_sun_veil(scene, to_sun, setup.region, size, veil_);
   shade_area_.reset();
   if (veil_.size == 0 || !scene.sun.shadows) return;
-  const std::optional<ScissorRect> area = shaded_area(veil_, to_sun, setup.lowest, setup.view);
-  if (!area) return;
+  shade_area_ = shaded_area(veil_, to_sun, setup.lowest, setup.view);
+  if (!shade_area_) return;
   if (veil_texture_) device_.destroy(veil_texture_);
   veil_texture_ = device_.create_texture(TextureFormat::rgba8_linear_filter, veil_.size, veil_.size,
                                          std::as_bytes(std::span(veil_.cells)));
@@ -137,26 +157,22 @@ void SoftPass::cast_shade(const RenderScene& scene, const FrameSetup& setup, Tar
   for (const FluidSurface& fluid : scene.fluids)
     softness = std::max(softness, 2 * fluid.radius / float(veil_.depth));
   soft_.veil = {1 / softness, 1, 0, 0};
-  shade_area_ = area;
-  // Without liquids the shade has no colour: it is a layer of the smoke (draw_smoke).
-  if (scene.fluids.empty()) return;
+}
+
+void SoftPass::cast_shade(TargetId canvas, const DrawCall& base) {
   device_.update_buffer(uniforms_, bytes_of(soft_));
   device_.begin_pass({canvas, {}, false});
-  DrawCall c = call(base, pipelines_.veil_shade, {device_.depth_texture(behind_), veil_texture_});
+  DrawCall c = call(base, pipelines_.veil_shade, {device_.depth_texture(solid_), veil_texture_});
   c.count = 3;
-  c.scissor = *area;
+  c.scissor = *shade_area_;
   device_.draw(c);
   device_.end_pass();
 }
 
 void SoftPass::draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
-                            std::span<const ScissorRect> solid, const DrawCall& base) {
-  device_.resolve_depth(canvas, behind_, solid);
-  soft_ = {};
-  soft_.depths = {float(setup.camera.near), float(setup.camera.far),
-                  float(setup.view.pixels_per_radian), float(smoke_scale_)};
-  cast_shade(scene, setup, canvas, base);
+                            const DrawCall& base) {
   if (scene.fluids.empty()) return;
+  if (shade_area_) cast_shade(canvas, base);
   device_.resolve(canvas, behind_);
   for (const FluidSurface& fluid : scene.fluids)
     draw_liquid(fluid, setup, scene.quality, canvas, base);
@@ -200,7 +216,7 @@ void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Q
 
   device_.begin_pass({thickness_, nothing, false});
   c = call(base, pipelines_.fluid_thickness, {});
-  c.textures[0] = device_.depth_texture(behind_);
+  c.textures[0] = device_.depth_texture(solid_);
   c.textures[1] = device_.colour_texture(front_);
   c.vertices = balls_;
   c.count = 3 * plan.all;
@@ -210,42 +226,32 @@ void SoftPass::draw_liquid(const FluidSurface& fluid, const FrameSetup& setup, Q
   device_.begin_pass({canvas, {}, false});
   c = call(base, pipelines_.fluid_surface,
            {device_.colour_texture(front_), device_.colour_texture(thickness_),
-            device_.colour_texture(behind_), device_.depth_texture(behind_)});
+            device_.colour_texture(behind_), device_.depth_texture(solid_)});
   c.count = 3;
   c.scissor = plan.area;
   device_.draw(c);
   device_.end_pass();
 }
 
-void SoftPass::draw_smoke(const RenderScene& scene, const FrameSetup& setup, const DrawCall& base) {
-  const std::vector<GpuPuff> puffs = plan_smoke(scene, setup.view, veil_);
-  SmokeShade shade;
-  shade.falls = shade_area_ && scene.fluids.empty();
-  if (shade.falls) {
-    const auto& sun = setup.uniforms.to_sun;
-    shade.to_sun = Vec3(double(sun[0]), double(sun[1]), double(sun[2]));
-    shade.lowest = setup.lowest;
-    shade.blur = 2 / (veil_.veil_from_world.row(0).head<3>().norm() * veil_.size);
-  }
-  smoke_parts_ = smoke_parts(scene, puffs, shade, setup.view);
+void SoftPass::draw_smoke(const RenderScene& scene, const DrawCall& base) {
   if (smoke_parts_.empty()) return;
   soft_.veil[1] = float(smoke_scale_);
   device_.update_buffer(uniforms_, bytes_of(soft_));
   device_.begin_pass({smoke_, std::array<float, 4>{0, 0, 0, 1}, false});
-  const TextureId depth = device_.depth_texture(behind_);
-  if (shade.falls)
+  const TextureId depth = device_.depth_texture(solid_);
+  if (shade_area_ && scene.fluids.empty())
     for (const ScissorRect& part : smoke_parts_) {
       DrawCall c = call(base, pipelines_.veil_layer, {depth, veil_texture_});
       c.count = 3;
       c.scissor = reduced(part, height_, smoke_scale_);
       device_.draw(c);
     }
-  if (!puffs.empty()) {
-    device_.update_buffer(puff_instances_, std::as_bytes(std::span(puffs)));
+  if (!smoke_puffs_.empty()) {
+    device_.update_buffer(puff_instances_, std::as_bytes(std::span(smoke_puffs_)));
     DrawCall c = call(base, pipelines_.smoke, {puffs_, depth});
     c.instances = puff_instances_;
     c.count = 4;
-    c.instance_count = uint32_t(puffs.size());
+    c.instance_count = uint32_t(smoke_puffs_.size());
     device_.draw(c);
   }
   device_.end_pass();
@@ -257,7 +263,7 @@ void SoftPass::cover_with_smoke(const DrawCall& base) {
     c.pipeline = pipelines_.smoke_cover;
     c.uniforms[1] = {uniforms_, 0, sizeof(GpuSoft)};
     c.textures[0] = device_.colour_texture(smoke_);
-    c.textures[1] = device_.depth_texture(behind_);
+    c.textures[1] = device_.depth_texture(solid_);
     c.count = 3;
     c.scissor = part;
     device_.draw(c);

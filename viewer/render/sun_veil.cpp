@@ -82,9 +82,11 @@ class VeilMaker {
                  v = (x.y() - low_.y()) * cells_per_metre_;
     const double r = std::max(radius * cells_per_metre_, 0.75);
     const auto cell = [this](double a) { return std::clamp(int(std::floor(a)), 0, size_ - 1); };
-    for (int j = cell(v - r); j <= cell(v + r); ++j)
-      for (int i = cell(u - r); i <= cell(u + r); ++i) {
-        const double du = i + 0.5 - u, dv = j + 0.5 - v, d2 = (du * du + dv * dv) / (r * r);
+    const double by_r2 = 1 / (r * r);
+    const int i0 = cell(u - r), i1 = cell(u + r), j1 = cell(v + r);
+    for (int j = cell(v - r); j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i) {
+        const double du = i + 0.5 - u, dv = j + 0.5 - v, d2 = (du * du + dv * dv) * by_r2;
         if (d2 < 1) f(size_t(j) * size_t(size_) + size_t(i), d2);
       }
   }

@@ -46,11 +46,12 @@ void WorldPass::fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& l
   ground_triangles_.fill(std::as_bytes(std::span(ground_plan_.triangles)));
 }
 
-void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open,
-                             PipelineId ball) {
+void WorldPass::draw_batches(const std::vector<Batch>& batches,
+                             const std::array<BodyPipelines, 2>& pipelines) {
   for (const Batch& b : batches) {
     const MeshCache::Entry& mesh = meshes_.get(*b.mesh, frame_);
-    DrawCall c = call(b.mesh->ball ? ball : b.mesh->two_sided ? open : closed);
+    const BodyPipelines& p = pipelines[b.patterned];
+    DrawCall c = call(b.mesh->ball ? p.ball : b.mesh->two_sided ? p.two_sided : p.closed);
     c.vertices = mesh.vertices;
     c.indices = mesh.indices;
     c.count = mesh.index_count;
@@ -59,6 +60,12 @@ void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId close
     c.instance_count = b.count;
     device_.draw(c);
   }
+}
+
+void WorldPass::draw_batches(const std::vector<Batch>& batches, PipelineId closed,
+                             PipelineId open) {
+  const BodyPipelines all{closed, open, {}};
+  draw_batches(batches, {all, all});
 }
 
 void WorldPass::draw_spheres(const SphereRun& run, PipelineId pipeline) {
@@ -75,6 +82,7 @@ void WorldPass::draw_shadow_passes(const RenderScene& scene, const FrameSetup& s
   if (setup.shadows) {
     draw_batches(plan_.casters, pipelines_.shadow, pipelines_.shadow_two_sided);
     draw_spheres(plan_.sphere_casters, pipelines_.sphere_shadow);
+    draw_spheres(plan_.ball_casters, pipelines_.sphere_shadow);
   }
   device_.end_pass();
 
@@ -126,8 +134,7 @@ void WorldPass::draw_ground_depth(std::span<const ScissorRect> parts) {
 
 void WorldPass::draw_bodies(const RenderScene& scene) {
   const size_t fine = scene.quality == Quality::high ? 1 : 0;
-  draw_batches(plan_.opaque, pipelines_.surface[fine], pipelines_.surface_two_sided[fine],
-               pipelines_.ball[fine]);
+  draw_batches(plan_.opaque, pipelines_.bodies[fine]);
   draw_spheres(plan_.opaque_spheres, pipelines_.sphere[fine]);
   draw_batches(plan_.outlined, pipelines_.outline, pipelines_.outline);
 }
@@ -180,6 +187,17 @@ void WorldPass::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, 
   }
 }
 
+/// The depth of what is solid for liquids and smoke, of one sample: the ground costs a tenth of
+/// what it costs among the samples of the canvas.
+void WorldPass::draw_solid_depth(const CanvasParts& parts, const Layers& layers) {
+  PassDesc pass{soft_.solid(), {}, true};
+  pass.depth_of = targets_->canvas();
+  pass.depth_parts = parts.solid;
+  device_.begin_pass(pass);
+  if (layers.ground_under) draw_ground_depth(parts.solid);
+  device_.end_pass();
+}
+
 /// What needs every sample: edges of bodies, and the ground too unless it comes `under` them later.
 /// Leaves its last pass open.
 void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
@@ -192,8 +210,9 @@ void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
   if (!layers.ground_under) draw_background(scene, setup, false);
   if (soft) {
     device_.end_pass();
-    soft_.draw_liquids(scene, setup, canvas, parts.solid, call({}));
-    soft_.draw_smoke(scene, setup, call({}));
+    draw_solid_depth(parts, layers);
+    soft_.draw_liquids(scene, setup, canvas, call({}));
+    soft_.draw_smoke(scene, call({}));
     device_.begin_pass({canvas, {}, false});
   }
   draw_blended(scene);
@@ -241,6 +260,7 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   fill_buffers(setup, lines, points);
 
   draw_shadow_passes(scene, setup);
+  if (soft) soft_.plan(scene, setup);
   Layers layers;
   // Liquids look through to what is behind them.
   layers.ground_under =
@@ -251,9 +271,9 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   const std::vector<ScissorRect> whole = {{0, 0, width, height}};
   CanvasParts parts;
   parts.drawn = marks || !scene.fluids.empty() ? whole : drawn_parts(scene, setup.view);
-  // The shade of smoke falls on the ground too, at its depth.
-  parts.solid = soft ? whole : parts.drawn;
-  parts.below_ground = marks || soft ? whole : sunken_parts(scene, setup.view);
+  parts.below_ground = marks ? whole : sunken_parts(scene, setup.view);
+  const auto smoke = soft_.smoke_places();
+  parts.solid = scene.fluids.empty() ? std::vector(smoke.begin(), smoke.end()) : whole;
   draw_canvas(scene, setup, parts, layers);
   draw_marks(lines, lines_, pipelines_.line, pipelines_.line_hidden, pipelines_.line_over);
   draw_marks(points, points_, pipelines_.point, pipelines_.point_hidden, pipelines_.point_over);

@@ -35,22 +35,25 @@ class WorldPass {
   };
   /// Of the canvas.
   struct CanvasParts {
-    std::vector<ScissorRect> solid;         ///< hold all bodies
     std::vector<ScissorRect> drawn;         ///< hold all that is drawn but the ground
     std::vector<ScissorRect> below_ground;  ///< hold what the ground hides
+    std::vector<ScissorRect> solid;  ///< hold what of them liquids and smoke ask the depth of
   };
 
   DrawCall call(PipelineId pipeline) const;
   void fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& lines,
                     const MarkRuns<GpuPoint>& points);
-  /// Balls come in the opaque layer only.
-  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open,
-                    PipelineId ball = {});
+  /// With those for plain bodies and those for patterned ones.
+  void draw_batches(const std::vector<Batch>& batches,
+                    const std::array<BodyPipelines, 2>& pipelines);
+  /// Layers without balls, whatever the pattern.
+  void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
   void draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
                    const std::optional<ScissorRect>& within = {});
   void draw_ground_depth(std::span<const ScissorRect> parts);
+  void draw_solid_depth(const CanvasParts& parts, const Layers& layers);
   void draw_bodies(const RenderScene& scene);
   void draw_background(const RenderScene& scene, const FrameSetup& setup, bool under);
   void draw_canvas(const RenderScene& scene, const FrameSetup& setup, const CanvasParts& parts,

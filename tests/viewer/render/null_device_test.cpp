@@ -221,12 +221,33 @@ TEST_CASE("a pass that begins with the average of a target depends on what that 
   CHECK(kept(2, {part, {5, 0, 1, 8}}) == 1);
 }
 
-TEST_CASE("a copied depth depends on what was drawn and on the parts that are copied") {
+TEST_CASE("a pass that begins with the depth of a target depends on what that holds") {
   Bench b;
   TargetDesc desc;
   desc.width = desc.height = 8;
+  desc.colour = ColourAttachment::none;
   desc.depth = DepthAttachment::texture;
   const TargetId to = *b.device->create_target(desc);
+  const auto faults = [&] { return b.device->take_faults().size(); };
+  const auto begin = [&](TargetId from, std::vector<ScissorRect> parts, bool clear_depth = true) {
+    PassDesc pass{to, {}, clear_depth};
+    pass.depth_of = from;
+    pass.depth_parts = std::move(parts);
+    b.device->begin_pass(pass);
+    const size_t wrong = faults();
+    b.device->end_pass();
+    return wrong + faults();
+  };
+  const ScissorRect part{2, 0, 3, 8};
+  const ScissorRect outside{2, 0, 7, 8};
+  CHECK(begin(b.many, {part}) == 0);
+  CHECK(begin(b.many, {}) == 0);
+  CHECK(begin(b.many, {part, outside}) == 2);  // and then no pass is open
+  CHECK(begin(b.many, {part}, false) == 2);
+  CHECK(begin(to, {part}) == 2);
+  desc.width = 9;
+  CHECK(begin(*b.device->create_target(desc), {part}) == 2);
+
   const auto kept = [&](uint32_t instances, std::vector<ScissorRect> parts) {
     DrawCall c = b.call();
     c.instance_count = instances;
@@ -234,20 +255,16 @@ TEST_CASE("a copied depth depends on what was drawn and on the parts that are co
     b.device->begin_pass({b.many, std::array<float, 4>{0, 0, 0, 1}, true});
     b.device->draw(c);
     b.device->end_pass();
-    const uint32_t before = b.device->stats().kept;
-    b.device->resolve_depth(b.many, to, parts);
-    return b.device->stats().kept > before;
+    CHECK(begin(b.many, std::move(parts)) == 0);
+    return b.device->stats().kept;
   };
-  const ScissorRect part{2, 0, 3, 8};
-  CHECK_FALSE(kept(1, {part}));
-  CHECK(kept(1, {part}));
-  CHECK_FALSE(kept(2, {part}));
-  CHECK_FALSE(kept(2, {part, part}));
-  CHECK_FALSE(kept(2, {}));
-  CHECK(kept(2, {}));
-  CHECK(b.device->take_faults().empty());
-  kept(2, {{2, 0, 7, 8}});
-  CHECK(b.device->take_faults().size() == 1);
+  kept(1, {part});
+  CHECK(kept(1, {part}) == 2);
+  CHECK(kept(2, {part}) == 0);
+  CHECK(kept(2, {part}) == 2);
+  CHECK(kept(2, {part, part}) == 1);
+  CHECK(kept(2, {}) == 1);
+  CHECK(kept(2, {}) == 2);
 }
 
 TEST_CASE("stale and foreign ids are found out, and leaks are counted") {

@@ -104,7 +104,6 @@ class GlDevice final : public Device {
     if (!ledger_.resolve(from, to) || ledger_.kept()) return;
     blit(from, ledger_.find(to)->native, GL_COLOR_BUFFER_BIT);
   }
-  void resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) override;
   void read_pixels(TargetId target, std::span<uint8_t> rgba) override;
   void present(TargetId target) override {
     if (ledger_.present(target)) blit(target, 0, GL_COLOR_BUFFER_BIT);
@@ -242,22 +241,11 @@ void GlDevice::begin_put_off() {
     clear |= GL_DEPTH_BUFFER_BIT;
   }
   if (clear) gl_.Clear(clear);
-  if (pass.averages) {
-    for (const ScissorRect& part : pass.averaged_parts)
-      blit(pass.averages, t.native, GL_COLOR_BUFFER_BIT, part);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
-  }
-}
-
-void GlDevice::resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) {
-  if (!ledger_.resolve_depth(from, to, parts) || ledger_.kept()) return;
-  const GLuint native = ledger_.find(to)->native;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, native);
-  gl_.Disable(GL_SCISSOR_TEST);
-  gl_.DepthMask(GL_TRUE);
-  gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  for (const ScissorRect& part : parts) blit(from, native, GL_DEPTH_BUFFER_BIT, part);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  for (const ScissorRect& part : pass.averaged_parts)
+    blit(pass.averages, t.native, GL_COLOR_BUFFER_BIT, part);
+  for (const ScissorRect& part : pass.depth_parts)
+    blit(pass.depth_of, t.native, GL_DEPTH_BUFFER_BIT, part);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
 }
 
 void GlDevice::draw(const DrawCall& call) {

@@ -48,9 +48,6 @@ class NullDevice final : public Device {
   void draw(const DrawCall& call) override { ledger_.draw(call); }
   void end_pass() override { ledger_.end_pass(); }
   void resolve(TargetId from, TargetId to) override { ledger_.resolve(from, to); }
-  void resolve_depth(TargetId from, TargetId to, std::span<const ScissorRect> parts) override {
-    ledger_.resolve_depth(from, to, parts);
-  }
   void read_pixels(TargetId target, std::span<uint8_t> rgba) override {
     if (!ledger_.read_pixels(target, rgba.size())) return;
     const uint64_t hash = ledger_.stats().hash;

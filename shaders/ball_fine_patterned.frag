@@ -1,0 +1,4 @@
+#version 330 core
+#define FINE
+#define PATTERNED
+#include "ball.glsl"

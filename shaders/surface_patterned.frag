@@ -1,0 +1,3 @@
+#version 330 core
+#define PATTERNED
+#include "surface.glsl"
