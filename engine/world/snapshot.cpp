@@ -18,7 +18,7 @@ constexpr uint32_t contacts_version = 7;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
 /// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains.
 constexpr uint32_t particles_version = 7;
-constexpr uint32_t grain_touches_version = 2;
+constexpr uint32_t grain_touches_version = 3;
 constexpr uint32_t sensors_version = 1;
 /// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
 constexpr uint32_t emitters_version = 5;

@@ -211,19 +211,25 @@ void GrainBundles::fill_lane(const GrainTick& tick, const GrainField& grains, si
   bounces_[k].speed[lane] = -restitution * approach;
 }
 
-void GrainBundles::read(std::span<GrainForces> forces, double hs, Crew* crew) const {
+double GrainBundles::read(std::span<GrainForces> forces, double hs, Crew* crew) const {
+  std::array<float, chunk_count> deepest{};
   for_chunks(
       crew, bundles_.size(),
-      [&](size_t, size_t first, size_t last) {
-        for (size_t k = first; k < last; ++k) read_bundle(forces, hs, k);
+      [&](size_t chunk, size_t first, size_t last) {
+        for (size_t k = first; k < last; ++k)
+          deepest[chunk] = std::max(deepest[chunk], read_bundle(forces, hs, k));
       },
       least_bundles);
+  return double(std::ranges::max(deepest));
 }
 
-void GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t k) const {
+/// The greatest overlap in it, or 0.
+float GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t k) const {
   const GrainBundle& from = bundles_[k];
   const auto force = [&](float impulse) { return float(double(impulse) / hs); };
+  float deepest = 0;
   for (size_t lane = 0; lane < from.lanes; ++lane) {
+    deepest = std::max(deepest, -from.gap[lane]);
     GrainForces f;
     f.push = force(from.push[lane]);
     for (size_t c = 0; c < 3; ++c) f.rub[c] = force(from.rub[c][lane]);
@@ -231,6 +237,7 @@ void GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t 
       for (size_t c = 0; c < 3; ++c) f.turn[c] = force(turnings_[k].turn[c][lane]);
     forces[source_[k * grain_lanes + lane]] = f;
   }
+  return deepest;
 }
 
 }  // namespace tumble

@@ -65,8 +65,8 @@ class GrainBundles {
   /// Contacts, and the forces that they begin with, by pair; `hs` is the sub-step [s].
   void fill(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
             std::span<const GrainForces> forces, double hs);
-  /// Their forces in the last sub-step.
-  void read(std::span<GrainForces> forces, double hs, Crew* crew) const;
+  /// Their forces in the last sub-step; gives the greatest overlap [m].
+  double read(std::span<GrainForces> forces, double hs, Crew* crew) const;
 
   std::vector<GrainBundle>& all() { return bundles_; }
   std::span<const GrainBundle> all() const { return bundles_; }
@@ -99,7 +99,7 @@ class GrainBundles {
   void fill_bundle(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
                    std::span<const GrainForces> forces, double hs, size_t k);
   void fill_lane(const GrainTick& tick, const GrainField& grains, size_t k, size_t lane);
-  void read_bundle(std::span<GrainForces> forces, double hs, size_t k) const;
+  float read_bundle(std::span<GrainForces> forces, double hs, size_t k) const;
 
   std::vector<GrainBundle> bundles_;
   std::vector<GrainTurning> turnings_;

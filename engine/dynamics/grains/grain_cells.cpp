@@ -5,6 +5,7 @@
 #include "engine/dynamics/particles/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -63,10 +64,9 @@ void GrainCells::find_awake(const GrainField& grains, Crew* crew) {
 
 template <class F>
 void GrainCells::about(const CellOrder::Cell& cell, const F& f) const {
-  for (int64_t k = cell.k - 1; k <= cell.k + 1; ++k)
-    for (int64_t j = cell.j - 1; j <= cell.j + 1; ++j)
-      for (int64_t i = cell.i - 1; i <= cell.i + 1; ++i)
-        if (const CellOrder::Cell* at = cells_.find(i, j, k)) f(*at);
+  std::array<const CellOrder::Cell*, 27> near;
+  const size_t count = cells_.about(cell, near);
+  for (size_t n = 0; n < count; ++n) f(*near[n]);
 }
 
 bool GrainCells::stirs(size_t cell) const {

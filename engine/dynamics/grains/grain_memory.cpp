@@ -4,22 +4,21 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tumble {
 
 void GrainMemory::find_own(const GrainTick& tick, const GrainField& grains,
                            std::span<const GrainTouch> touches) {
   own_.assign(grains.size(), {});
-  const auto place = [&](size_t k) { return grains.find(tick.systems, touches[k].a); };
   for_chunks(tick.crew, touches.size(), [&](size_t, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) {
-      const bool begins = k == 0 || touches[k - 1].a != touches[k].a;
-      const bool ends = k + 1 == touches.size() || touches[k + 1].a != touches[k].a;
-      if (!begins && !ends) continue;
-      const size_t i = place(k);
+      if (k > 0 && touches[k - 1].a == touches[k].a) continue;
+      const size_t i = grains.find(tick.systems, touches[k].a);
       if (i == grains.size()) continue;
-      if (begins) own_[i].begin = uint32_t(k);
-      if (ends) own_[i].end = uint32_t(k + 1);
+      size_t end = k + 1;
+      while (end < touches.size() && touches[end].a == touches[k].a) ++end;
+      own_[i] = {uint32_t(k), uint32_t(end)};
     }
   });
 }
@@ -63,14 +62,14 @@ void GrainMemory::sort_out(const GrainTick& tick, const GrainField& grains, cons
     const bool there =
         t.body() < tick.bodies.bodies.size() && !tick.bodies.bodies[t.body()].shapes.empty();
     if (there)
-      left.kept.push_back(t);
+      left.kept.push_back({uint32_t(a), t});
     else
       left.lost.push_back(uint32_t(a));
     return;
   }
   const size_t b = grains.find(tick.systems, t.b);
   const bool sleeps_a = a != none && grains.asleep[a], sleeps_b = b != none && grains.asleep[b];
-  if (sleeps_a && sleeps_b) return left.kept.push_back(t);
+  if (sleeps_a && sleeps_b) return left.kept.push_back({uint32_t(a), t});
   if (sleeps_a) left.lost.push_back(uint32_t(a));
   if (sleeps_b) left.lost.push_back(uint32_t(b));
 }
@@ -97,61 +96,66 @@ void GrainMemory::recall(const GrainTick& tick, const GrainField& grains,
   }
 }
 
-void GrainMemory::store(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
-                        std::span<const GrainBodyRow> walls, std::span<const GrainBodyRow> held,
-                        double hs, GrainTouches& touches) {
-  const auto before = [](const GrainTouch& u, const GrainTouch& v) { return u.before(v); };
+void GrainMemory::list_beside(const GrainField& grains, std::span<const GrainBodyRow> walls,
+                              std::span<const GrainBodyRow> held, double hs) {
+  const auto before = [](const Beside& u, const Beside& v) {
+    return u.place != v.place ? u.place < v.place : u.touch.b < v.touch.b;
+  };
   const auto force = [hs](const Vec3& v) {
     return std::array{float(v[0] / hs), float(v[1] / hs), float(v[2] / hs)};
   };
-  beside_.clear();
+  // What is kept stands nearly always in order already: grains that sleep do not change places.
+  if (!std::ranges::is_sorted(kept_, before)) std::ranges::sort(kept_, before);
+  beside_ = kept_;
+  const auto middle = std::ptrdiff_t(beside_.size());
   for (const std::span<const GrainBodyRow> rows : {walls, held})
     for (const GrainBodyRow& r : rows)
       if (r.push > 0)
         beside_.push_back(
-            {{float(r.push / hs), force(r.rub), force(r.turn), 0}, grains.key[r.a], r.key});
-  std::ranges::sort(beside_, before);
-  const auto middle = std::ptrdiff_t(beside_.size());
-  beside_.insert(beside_.end(), kept_.begin(), kept_.end());
+            {r.a, {{float(r.push / hs), force(r.rub), force(r.turn), 0}, grains.key[r.a], r.key}});
+  std::sort(beside_.begin() + middle, beside_.end(), before);
   std::inplace_merge(beside_.begin(), beside_.begin() + middle, beside_.end(), before);
-  const auto from_key = [&](size_t n) {
-    return std::ranges::lower_bound(beside_, grains.key[grains.place_of[n]], {}, &GrainTouch::a) -
-           beside_.begin();
+}
+
+template <class F>
+void GrainMemory::each_of(const GrainField& grains, const GrainPairList& pairs, size_t first,
+                          size_t last, const F& f) const {
+  auto beside = std::ranges::lower_bound(beside_, first, {}, &Beside::place);
+  for (size_t i = first; i < last; ++i) {
+    const auto add_beside = [&](uint64_t end) {
+      for (; beside != beside_.end() && beside->place == i && beside->touch.b < end; ++beside)
+        f(beside->touch);
+    };
+    for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+      if (!(forces_[k].push > 0)) continue;
+      const uint64_t b = grains.key[pairs.all[k].b];
+      add_beside(b);
+      f(GrainTouch{forces_[k], grains.key[i], b});
+    }
+    add_beside(~uint64_t{0});
+  }
+}
+
+void GrainMemory::store(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
+                        std::span<const GrainBodyRow> walls, std::span<const GrainBodyRow> held,
+                        double hs, GrainTouches& touches) {
+  list_beside(grains, walls, held, hs);
+  const auto beside = [this](size_t place) {
+    return size_t(std::ranges::lower_bound(beside_, place, {}, &Beside::place) - beside_.begin());
   };
-  // How many each grain has, then where they begin; the range of ordinals of each thread begins at
-  // its own part of what stands beside the pairs.
-  begins_.resize(grains.size() + 1);
-  for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
-    size_t at = first < last ? size_t(from_key(first)) : 0;
-    for (size_t n = first; n < last; ++n) {
-      const uint32_t i = grains.place_of[n];
-      uint32_t count = 0;
-      for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) count += forces_[k].push > 0;
-      for (; at < beside_.size() && beside_[at].a == grains.key[i]; ++at) ++count;
-      begins_[n + 1] = count;
-    }
+  // How many each thread's piece has, then they themselves.
+  std::array<size_t, chunk_count> begins{};
+  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
+    size_t count = beside(last) - beside(first);
+    for (uint32_t k = pairs.first[first]; k < pairs.first[last]; ++k) count += forces_[k].push > 0;
+    begins[chunk] = count;
   });
-  begins_[0] = 0;
-  for (size_t n = 0; n < grains.size(); ++n) begins_[n + 1] += begins_[n];
-  next_.resize(begins_.back());
-  for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
-    size_t at = first < last ? size_t(from_key(first)) : 0;
-    for (size_t n = first; n < last; ++n) {
-      const uint32_t i = grains.place_of[n];
-      const uint64_t a = grains.key[i];
-      auto to = next_.begin() + std::ptrdiff_t(begins_[n]);
-      const auto add_beside = [&](uint64_t end) {
-        for (; at < beside_.size() && beside_[at].a == a && beside_[at].b < end; ++at)
-          *to++ = beside_[at];
-      };
-      for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-        if (!(forces_[k].push > 0)) continue;
-        const uint64_t b = grains.key[pairs.all[k].b];
-        add_beside(b);
-        *to++ = {forces_[k], a, b};
-      }
-      add_beside(~uint64_t{0});
-    }
+  size_t sum = 0;
+  for (size_t& b : begins) sum += std::exchange(b, sum);
+  next_.resize(sum);
+  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
+    GrainTouch* to = next_.data() + begins[chunk];
+    each_of(grains, pairs, first, last, [&](const GrainTouch& t) { *to++ = t; });
   });
   touches.replace(next_, grains.size());
 }

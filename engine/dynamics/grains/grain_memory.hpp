@@ -20,7 +20,7 @@ class GrainMemory {
   std::span<const GrainForces> forces() const { return forces_; }
   /// Grains whose hold has gone, by place.
   std::span<const uint32_t> lost() const { return lost_; }
-  /// After it: what presses, in the order of keys.
+  /// After it: what presses.
   void store(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
              std::span<const GrainBodyRow> walls, std::span<const GrainBodyRow> held, double hs,
              GrainTouches& touches);
@@ -34,19 +34,30 @@ class GrainMemory {
   void recall_pairs(const GrainTick& tick, const GrainField& grains,
                     std::span<const GrainTouch> touches, const GrainPairList& pairs);
   void recall_row(std::span<const GrainTouch> touches, double hs, GrainBodyRow& row);
-  /// What becomes of a contact that the part does not have.
+  /// A contact that is none of a pair of the part.
+  struct Beside {
+    uint32_t place;  ///< of its grain `a`
+    GrainTouch touch;
+  };
+  /// What becomes of contacts that the part does not have.
   struct Left {
-    std::vector<GrainTouch> kept;
+    std::vector<Beside> kept;
     std::vector<uint32_t> lost;
   };
   static void sort_out(const GrainTick& tick, const GrainField& grains, const GrainTouch& touch,
                        Left& left);
+  void list_beside(const GrainField& grains, std::span<const GrainBodyRow> walls,
+                   std::span<const GrainBodyRow> held, double hs);
+  /// Calls f(touch) for all of the places [first, last) that are to be stored, in their order.
+  template <class F>
+  void each_of(const GrainField& grains, const GrainPairList& pairs, size_t first, size_t last,
+               const F& f) const;
 
   std::vector<Span> own_;            ///< by place: touches of which the grain is the first
   std::vector<GrainForces> forces_;  ///< by pair
   std::vector<uint8_t> taken_;       ///< by touch
-  std::vector<uint32_t> begins_;     ///< by ordinal: where its touches begin; then the end
-  std::vector<GrainTouch> kept_, beside_, next_;
+  std::vector<Beside> kept_, beside_;
+  std::vector<GrainTouch> next_;
   std::vector<uint32_t> lost_;
 };
 

@@ -136,7 +136,7 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   report.held += *held;
   count(work, report);
   if (stop_requested()) return stopped_error();
-  bundles_.read(memory_.forces(), hs, tick.crew);
+  report.deepest = std::max(report.deepest, bundles_.read(memory_.forces(), hs, tick.crew));
   if (stop_requested()) return stopped_error();
   memory_.store(tick, grains_, pairs_, bodies_.walls(), bodies_.held(), hs, touches);
   for (const uint32_t i : memory_.lost()) wake_again(tick, i);
@@ -154,9 +154,6 @@ void GrainStage::count(const GrainPairWork& work, GrainReport& report) const {
   report.contacts = pairs_.all.size() + bodies_.walls().size() + bodies_.held().size();
   report.restitution.work += work.lost;
   report.friction.work += work.rubbed;
-  for (const GrainBundle& c : bundles_.all())
-    for (size_t lane = 0; lane < c.lanes; ++lane)
-      report.deepest = std::max(report.deepest, -double(c.gap[lane]));
   bodies_.count(report);
 }
 

@@ -1,5 +1,7 @@
 #include "engine/dynamics/grains/grain_touch.hpp"
 
+#include <algorithm>
+
 namespace tumble {
 
 void GrainTouches::replace(std::vector<GrainTouch>& next, uint64_t grains) {
@@ -46,8 +48,19 @@ void GrainTouches::load(ByteReader& in) {
   if (loads > in.remaining() / sizeof(GrainLoad)) return in.fail();
   loads_.resize(size_t(loads));
   in.raw(loads_.data(), loads_.size() * sizeof(GrainLoad));
-  for (size_t k = 1; k < now_.size(); ++k)
-    if (!now_[k - 1].before(now_[k])) in.fail();
+  if (!in_order()) in.fail();
+}
+
+bool GrainTouches::in_order() const {
+  std::vector<uint64_t> grains;
+  for (size_t k = 0; k < now_.size(); ++k) {
+    if (k == 0 || now_[k - 1].a != now_[k].a)
+      grains.push_back(now_[k].a);
+    else if (now_[k - 1].b >= now_[k].b)
+      return false;
+  }
+  std::ranges::sort(grains);
+  return std::ranges::adjacent_find(grains) == grains.end();
 }
 
 void wake_grains_on(const GrainTouches& touches, uint32_t body, std::span<ParticleSystem> systems) {

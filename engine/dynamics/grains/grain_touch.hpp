@@ -22,7 +22,6 @@ struct GrainTouch : GrainForces {
   uint64_t a = 0;  ///< key of a grain
   uint64_t b = 0;  ///< of a later grain, or of a body's shape
 
-  bool before(const GrainTouch& other) const { return a != other.a ? a < other.a : b < other.b; }
   bool on_body() const { return (b >> 63) != 0; }
   uint32_t body() const { return uint32_t(b >> 24 & 0xffffffff); }
 };
@@ -43,7 +42,8 @@ struct GrainLoad {
   Vec3 moment = Vec3::Zero();   ///< about its centre [N m s]
 };
 
-/// The contacts of all grains after a tick, by ascending keys: part of the state of a world.
+/// The contacts of all grains after a tick: those of each `a` together, by ascending keys of `b`,
+/// in the order that the tick had the grains in. Part of the state of a world.
 class GrainTouches {
  public:
   std::span<const GrainTouch> all() const { return now_; }
@@ -62,6 +62,8 @@ class GrainTouches {
   void load(ByteReader& in);
 
  private:
+  bool in_order() const;
+
   std::vector<GrainTouch> now_, before_;
   std::vector<GrainLoad> loads_, loads_before_;
   uint64_t grains_ = 0, grains_before_ = 0;

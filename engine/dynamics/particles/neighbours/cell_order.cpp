@@ -130,9 +130,29 @@ void CellOrder::fill_table() {
   }
 }
 
+size_t CellOrder::about(const Cell& cell, std::array<const Cell*, 27>& out) const {
+  std::array<uint64_t, 3> ci, cj, ck;
+  for (int64_t d = 0; d < 3; ++d) {
+    ci[size_t(d)] = spread(uint64_t(cell.i - 1 + d + middle));
+    cj[size_t(d)] = spread(uint64_t(cell.j - 1 + d + middle)) << 1;
+    ck[size_t(d)] = spread(uint64_t(cell.k - 1 + d + middle)) << 2;
+  }
+  size_t found = 0;
+  for (size_t k = 0; k < 3; ++k)
+    for (size_t j = 0; j < 3; ++j)
+      for (size_t i = 0; i < 3; ++i)
+        if (const Cell* at = find(ci[i] | cj[j] | ck[k], cell.i - 1 + int64_t(i),
+                                  cell.j - 1 + int64_t(j), cell.k - 1 + int64_t(k)))
+          out[found++] = at;
+  return found;
+}
+
 const CellOrder::Cell* CellOrder::find(int64_t i, int64_t j, int64_t k) const {
-  if (cells_.empty()) return nullptr;
-  for (size_t slot = hash(morton(i, j, k)) & (table_.size() - 1); table_[slot] != 0;
+  return cells_.empty() ? nullptr : find(morton(i, j, k), i, j, k);
+}
+
+const CellOrder::Cell* CellOrder::find(uint64_t code, int64_t i, int64_t j, int64_t k) const {
+  for (size_t slot = hash(code) & (table_.size() - 1); table_[slot] != 0;
        slot = (slot + 1) & (table_.size() - 1))
     if (cells_[table_[slot] - 1].at(i, j, k)) return &cells_[table_[slot] - 1];
   return nullptr;

@@ -2,6 +2,7 @@
 #include "engine/core/crew.hpp"
 #include "engine/math/types.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,8 @@ class CellOrder {
   std::span<const Cell> cells() const { return cells_; }
   /// Null where there are no points.
   const Cell* find(int64_t i, int64_t j, int64_t k) const;
+  /// Those of a cell and the 26 about it that hold points: along i, then j, then k. How many.
+  size_t about(const Cell& cell, std::array<const Cell*, 27>& out) const;
   double size() const { return size_; }
 
  private:
@@ -39,6 +42,7 @@ class CellOrder {
   void sort_keys();
   void list_cells(std::span<const Vec3> points);
   void fill_table();
+  const Cell* find(uint64_t code, int64_t i, int64_t j, int64_t k) const;
 
   double size_ = 1;
   std::vector<uint32_t> order_;
