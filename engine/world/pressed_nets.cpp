@@ -149,14 +149,6 @@ void PressedNets::find_nets(const WorldState& s) {
   std::erase_if(tied_, [this](const Tied& t) { return !in_net(any_end(t.spring)); });
 }
 
-void PressedNets::note_pulled_apart(const WorldState& s) {
-  pulled_apart_.assign(s.forces.size(), 0);
-  for (Tied& t : tied_) {
-    t.pressed = pressed_[sets_.root(any_end(t.spring))] != 0;
-    if (t.pressed) pulled_apart_[t.force] = 1;
-  }
-}
-
 namespace {
 
 bool has_springs(const WorldState& s) {
@@ -172,21 +164,26 @@ void PressedNets::find(const WorldState& s) {
   number_particles(s);
   find_nets(s);
   take_pressed_before(s);
-  note_pulled_apart(s);
+  pulled_apart_.assign(s.forces.size(), 0);
+  for (Tied& t : tied_) {
+    t.pressed = pressed_[sets_.root(any_end(t.spring))] != 0;
+    if (t.pressed) pulled_apart_[t.force] = 1;
+  }
 }
 
 void PressedNets::find_among(const WorldState& s, std::span<const uint32_t> moving) {
   clear();
   if (s.blocks.empty() || !has_springs(s)) return;
-  const std::span<const uint32_t> first = s.blocks.first_slots();
-  first_of_.assign(first.begin(), first.end());
+  first_of_.assign(s.particles.size(), no_body);
+  for (uint32_t k = 0; k < s.particles.size(); ++k)
+    if (ParticleBlocks::has_blocks(ParticleBlocks::Which::colliding, s.particles[k]))
+      first_of_[k] = s.blocks.first_slots()[k];
   first_block_ = std::ranges::min(first_of_);
   begin_sets(s.bodies.bodies.size());
   find_nets(s);
+  pressed_.assign(pressed_.size(), 1);
   std::erase_if(
       tied_, [&](const Tied& t) { return !std::ranges::binary_search(moving, any_end(t.spring)); });
-  pressed_.assign(pressed_.size(), 1);
-  note_pulled_apart(s);
 }
 
 /// What a contact pressed in the tick before takes sub-steps in this one too.

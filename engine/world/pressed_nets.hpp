@@ -25,7 +25,7 @@ class PressedNets {
   /// one before.
   void find(const WorldState& state);
   /// Those among `moving`, which are sorted and have the blocks of particles with them: bodies that
-  /// meet so much in the tick that time-stepping moves them. All count as pressed.
+  /// meet so much in a tick of events that time-stepping moves them. All count as pressed.
   void find_among(const WorldState& state, std::span<const uint32_t> moving);
   /// Whether a force is to be asked for its pull: not where it is known to take sub-steps.
   bool pulls(size_t force) const {
@@ -54,7 +54,6 @@ class PressedNets {
   void number_particles(const WorldState& state);
   void begin_sets(size_t slots);
   void find_nets(const WorldState& state);
-  void note_pulled_apart(const WorldState& state);
   uint32_t slot_of(const WorldState& state, ParticleSystemId system, uint64_t id) const;
   bool moves(const WorldState& state, uint32_t slot) const;
   bool add_end(const WorldState& state, const Anchor& anchor, double weight, SolvedSpring& spring);

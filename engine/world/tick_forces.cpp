@@ -155,8 +155,7 @@ void TickForces::clear_sums(std::span<const uint32_t> bodies) const {
   }
 }
 
-void TickForces::share(std::span<const uint32_t> bodies, FunctionRef<bool(size_t)> takes,
-                       std::vector<ForceShare>& out) const {
+void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const {
   WorldState& s = state_;
   ForceContext context = s.force_context();
   context.only = bodies;
@@ -166,7 +165,6 @@ void TickForces::share(std::span<const uint32_t> bodies, FunctionRef<bool(size_t
     if (cause == 0) continue;
     const uint32_t force = cause - 1;
     if (force > s.forces.size()) continue;  // the solver sees to joints
-    if (!takes(force)) continue;
     const bool fluids = force == s.forces.size();
     if (fluids || holds_particles(*s.forces[force], context)) {
       for (const Held& h : holds_)

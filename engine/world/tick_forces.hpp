@@ -1,5 +1,4 @@
 #pragma once
-#include "engine/core/function_ref.hpp"
 #include "engine/world/ledger/force_shares.hpp"
 #include "engine/world/state.hpp"
 
@@ -21,9 +20,8 @@ class TickForces final : public ForceRates {
 
   /// What each force does to the bodies, by its slot, where they are now and as the realtime
   /// stepper applies forces: once for the tick, with a look ahead. Their force sums are that sum
-  /// afterwards, without gravity. Only of the forces whose slots `takes` takes.
-  void share(std::span<const uint32_t> bodies, FunctionRef<bool(size_t)> takes,
-             std::vector<ForceShare>& out) const;
+  /// afterwards, without gravity.
+  void share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const;
 
   /// Cause 0 is gravity, i + 1 the force in slot i, then those of fluids, of springs of joints, and
   /// of their motors.

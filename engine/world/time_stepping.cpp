@@ -92,8 +92,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   s.joints.couplings = couplings_;
   nets_.find_among(s, bodies);
   nets_.tie_blocks(s.bodies.bodies);
-  forces_.share(
-      bodies, [this](size_t force) { return nets_.pulls(force); }, books_.shares);
+  forces_.share(bodies, books_.shares);
   std::vector<Contact> known;
   const auto moves = [bodies](uint32_t slot) { return std::ranges::binary_search(bodies, slot); };
   for (const Contact& c : known_)
