@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -107,6 +108,12 @@ double limited_slope(double before, double after) {
   return std::copysign(least, before);
 }
 
+/// What is left of straight courses is a few of the last digits, and none.
+double second_difference(double a, double b, double c) {
+  const double out = c - 2 * b + a, size = std::fabs(a) + 2 * std::fabs(b) + std::fabs(c);
+  return std::fabs(out) <= 8 * std::numeric_limits<double>::epsilon() * size ? 0 : out;
+}
+
 /// How the velocity changes in the tick that begins at a time, per second.
 BodyVelocity slope_in_tick(const WorldState& s, uint32_t slot, double t) {
   const BodyDef& def = *s.body_defs[slot];
@@ -120,7 +127,7 @@ BodyVelocity slope_in_tick(const WorldState& s, uint32_t slot, double t) {
   }
   BodyVelocity out;
   const auto slope = [h](double a, double b, double c, double d) {
-    return limited_slope(c - 2 * b + a, d - 2 * c + b) / (h * h);
+    return limited_slope(second_difference(a, b, c), second_difference(b, c, d)) / (h * h);
   };
   for (int i = 0; i < 3; ++i) out.v[i] = slope(x[0][i], x[1][i], x[2][i], x[3][i]);
   out.omega = slope(angle[0], angle[1], angle[2], angle[3]) * def.course->axis.normalized();

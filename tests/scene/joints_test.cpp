@@ -2,6 +2,7 @@
 // and the list of faults that each wrong file has.
 #include "engine/math/time_course.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/build/joint_rank.hpp"
 #include "engine/scene/writer.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -155,6 +156,27 @@ TEST_CASE("couplings that no motion fulfils are faults") {
   says(hinge("j", "a", R"("couple": {"joint": "k", "ratio": 0}, "motor": {"velocity": 1})") + "," +
            hinge("k", "b", "\"collide\": true"),
        "lets it stand");
+}
+
+TEST_CASE("equations of joints that depend on others are counted") {
+  const auto rank = [](const std::string& joints) { return joint_rank(with_joints(joints)); };
+  const std::string hinge = R"("j": {"kind": "revolute", "b": "b", "anchor": [1, 4, 3])";
+  CHECK(rank(hinge + "}").rows == 5);
+  CHECK(rank(hinge + "}").rank == 5);
+  CHECK(rank(hinge + R"(, "motor": {"velocity": 1}})").rank == 6);
+  // Two hinges of a door on one axis: the body keeps one freedom of six.
+  const JointRank door =
+      rank(hinge + R"(}, "k": {"kind": "revolute", "b": "b", "anchor": [1, 4, 4]})");
+  CHECK(door.rows == 10);
+  CHECK(door.rank == 5);
+  REQUIRE(door.dependent.size() == 1);
+  CHECK(text_of(door) == "joint rows: 10, rank 5, dependent: 5 of 'k'");
+  // Two hinges that follow each other one to one are tied twice.
+  const std::string pair =
+      hinge + R"(, "couple": {"joint": "l"}}, "l": {"kind": "revolute", "b": "a",
+    "anchor": [1, 2, 3], "couple": {"joint": "j"}})";
+  CHECK(rank(pair).rows == 12);
+  CHECK(rank(pair).rank == 11);
 }
 
 TEST_CASE("joints that do not begin as they are to be say by how much") {
