@@ -34,12 +34,22 @@ void follow_events(WorldState& s, Joint& joint, double h) {
   if (time_stepped(s, joint)) return;
   const size_t kept = row_count(joint.kind);
   if (!dynamic(s, joint.a) && !dynamic(s, joint.b)) joint.moving_force.fill(0);
-  for_drives(joint, s.bodies.bodies, h, [&](size_t k, const ActingDrive& now) {
-    const SmoothDrive before = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], 0);
-    joint.moving_force[kept + k] += 0.5 * (before.total() + now.force.total());
-    joint.motor_impulse[k] += 0.5 * h * (before.motor + now.force.motor);
-  });
-  follow_coordinates(joint, s.bodies.bodies, h);
+  std::array<SmoothDrive, most_coordinates> before;
+  for (size_t k = 0; k < most_coordinates; ++k)
+    if (joint.driven(k))
+      before[k] = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], 0);
+  // What no group moved by events turns evenly.
+  const auto slot = size_t(&joint - s.joints.joints.data());
+  const bool counted = slot < s.event.turned.size() && s.event.turned[slot];
+  for (size_t k = 0; counted && k < most_coordinates; ++k)
+    joint.value[k] += (*s.event.turned[slot])[k];
+  follow_coordinates(joint, s.bodies.bodies, counted ? 0 : h);
+  for (size_t k = 0; k < most_coordinates; ++k) {
+    if (!joint.driven(k)) continue;
+    const SmoothDrive now = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], h);
+    joint.moving_force[kept + k] += 0.5 * (before[k].total() + now.total());
+    joint.motor_impulse[k] += 0.5 * h * (before[k].motor + now.motor);
+  }
 }
 
 /// What the joint did to B in the mean of the tick.

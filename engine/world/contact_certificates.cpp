@@ -1,5 +1,6 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/certify.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/present_moment.hpp"
 #include "engine/world/state.hpp"
 #include "engine/world/tick_common.hpp"
@@ -97,11 +98,12 @@ Result<ContactCertificates> World::contact_certificates() const {
   WorldState& s = *state_;
   const Stoppable scope(s.stop);
   if (s.settings.stepper != "event") return realtime_certificates(s);
+  const std::vector<CourseMotion> courses = course_changes(s);
   return ask_moment(s, s.settings.event.contact_solver,
                     [&](std::span<const EventContact> contacts, const SmoothForces& forces,
                         const ContactForceMethod& method) {
                       auto certified = certify(s.bodies.bodies, contacts, forces, method,
-                                               s.joints.all(), block_links(s));
+                                               s.joints.all(), block_links(s), courses);
                       if (certified) name_particles(s, *certified);
                       return certified;
                     });
@@ -116,11 +118,12 @@ Result<GroupForceProblem> World::contact_force_problem(BodyId body) const {
     return Error{ErrorCode::unsupported,
                  "the realtime stepper finds impulses by sweeps, and poses no problem of forces",
                  "settings.stepper", "choose \"event\""};
+  const std::vector<CourseMotion> courses = course_changes(s);
   return ask_moment(s, "automatic",
                     [&](std::span<const EventContact> contacts, const SmoothForces& forces,
                         const ContactForceMethod& method) {
                       return pose_contact_forces(s.bodies.bodies, body.index, contacts, forces,
-                                                 method, s.joints.all(), block_links(s));
+                                                 method, s.joints.all(), block_links(s), courses);
                     });
 }
 

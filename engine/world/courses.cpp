@@ -6,7 +6,9 @@
 #include "engine/world/tick_common.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -94,6 +96,44 @@ bool finite(const Aim& a) {
   return a.frame.x.allFinite() && a.frame.q.coeffs().allFinite() && a.turn.allFinite();
 }
 
+/// The slope of a quantity from its differences before and after, as means over ticks give it:
+/// their mean where it is smooth, none where it has an extremum or jumps (van Leer 1977, J. Comput.
+/// Phys. 23, eq. 66). What is not finite is not there.
+double limited_slope(double before, double after) {
+  if (!std::isfinite(before)) before = after;
+  if (!std::isfinite(after)) after = before;
+  if (!(before * after > 0)) return 0;
+  const double least =
+      std::min({2 * std::fabs(before), 2 * std::fabs(after), 0.5 * std::fabs(before + after)});
+  return std::copysign(least, before);
+}
+
+/// What is left of straight courses is a few of the last digits, and none.
+double second_difference(double a, double b, double c) {
+  const double out = c - 2 * b + a, size = std::fabs(a) + 2 * std::fabs(b) + std::fabs(c);
+  return std::fabs(out) <= 8 * std::numeric_limits<double>::epsilon() * size ? 0 : out;
+}
+
+/// How the velocity changes in the tick that begins at a time, per second.
+BodyVelocity slope_in_tick(const WorldState& s, uint32_t slot, double t) {
+  const BodyDef& def = *s.body_defs[slot];
+  const double h = s.settings.tick.tick();
+  std::array<Vec3, 4> x;
+  std::array<double, 4> angle;
+  for (size_t k = 0; k < 4; ++k) {
+    const double at = t + (double(k) - 1) * h;
+    x[k] = pose_at(def, at).point(s.bodies.bodies[slot].centre_body);
+    angle[k] = value_at(def.course->angle, at);
+  }
+  BodyVelocity out;
+  const auto slope = [h](double a, double b, double c, double d) {
+    return limited_slope(second_difference(a, b, c), second_difference(b, c, d)) / (h * h);
+  };
+  for (int i = 0; i < 3; ++i) out.v[i] = slope(x[0][i], x[1][i], x[2][i], x[3][i]);
+  out.omega = slope(angle[0], angle[1], angle[2], angle[3]) * def.course->axis.normalized();
+  return out;
+}
+
 /// Velocities that lead there.
 void set_velocity(WorldState& s, uint32_t slot, const Aim& aim) {
   RigidBody& b = s.bodies.bodies[slot];
@@ -132,6 +172,33 @@ Status follow_courses(WorldState& s) {
   for (size_t i = 0; i < drives.size(); ++i) set_targets(s, s.joints.timed[i], drives[i]);
   for (size_t i = 0; i < aims.size(); ++i) set_velocity(s, s.on_course[i], aims[i]);
   return {};
+}
+
+std::vector<CourseMotion> course_motions(const WorldState& s) {
+  std::vector<CourseMotion> out;
+  const double half = 0.5 * s.settings.tick.tick();
+  for (const uint32_t slot : s.on_course) {
+    const RigidBody& b = s.bodies.bodies[slot];
+    if (!is_active(b)) continue;
+    const BodyVelocity change = slope_in_tick(s, slot, s.time());
+    out.push_back({slot, {b.v - half * change.v, b.omega - half * change.omega}, change});
+  }
+  return out;
+}
+
+std::vector<CourseMotion> course_changes(const WorldState& s) {
+  std::vector<CourseMotion> out;
+  const double h = s.settings.tick.tick();
+  for (const uint32_t slot : s.on_course) {
+    const RigidBody& b = s.bodies.bodies[slot];
+    BodyVelocity change = slope_in_tick(s, slot, s.time());
+    if (s.tick > 0) {
+      const BodyVelocity before = slope_in_tick(s, slot, s.time() - h);
+      change = {0.5 * (before.v + change.v), 0.5 * (before.omega + change.omega)};
+    }
+    out.push_back({slot, {b.v, b.omega}, change});
+  }
+  return out;
 }
 
 void begin_course(WorldState& s, uint32_t slot) {

@@ -14,6 +14,13 @@ Status follow_courses(WorldState& state);
 /// Only the targets, for questions about the moment; those without a finite value stay.
 void set_motor_targets(WorldState& state);
 
+/// How bodies on courses go through the tick from now, whose mean velocities they have: velocities
+/// change evenly, by the slopes that those of the ticks before and after let one see, and jump only
+/// where courses do. Those at rest are left out.
+std::vector<CourseMotion> course_motions(const WorldState& state);
+/// Their velocities as they are, and how these change at the moment.
+std::vector<CourseMotion> course_changes(const WorldState& state);
+
 /// Puts a body that has a course to where it is to be now, and remembers it.
 void begin_course(WorldState& state, uint32_t slot);
 /// From here on the body goes by its velocity.

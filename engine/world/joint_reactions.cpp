@@ -129,12 +129,14 @@ class ReactionSolver {
       : s_(state),
         forces_(forces),
         method_(method),
+        courses_(course_changes(state)),
         block_of_(state.bodies.bodies.size(), no_block) {}
 
   Status add(JointedGroup& group, std::vector<JointWrench>& out) {
     std::vector<RigidBody>& bodies = s_.bodies.bodies;
     for (size_t i = 0; i < group.slots.size(); ++i) block_of_[group.slots[i]] = uint32_t(i);
     EventSystem system(bodies, group.slots, block_of_, forces_, method_);
+    system.set_courses(courses_);
     const bool events = s_.settings.stepper == "event";
     system.set_joints(s_.joints.all(), {group.joints, group.couplings},
                       events ? Articulation::Drives::held : Articulation::Drives::none);
@@ -175,6 +177,7 @@ class ReactionSolver {
   WorldState& s_;
   const SmoothForces& forces_;
   ContactForceMethod method_;
+  std::vector<CourseMotion> courses_;
   std::vector<uint32_t> block_of_;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/world/apart.hpp"
 #include "engine/world/break_joints.hpp"
 #include "engine/world/break_springs.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/emission.hpp"
 #include "engine/world/fast_particles.hpp"
 #include "engine/world/fluids.hpp"
@@ -134,6 +135,8 @@ Status move_bodies(WorldState& s, const TickForces& forces, TimeStepping& time_s
   context.joints = s.joints.joints;
   context.couplings = s.joints.couplings;
   context.time_stepping = &time_stepping;
+  const std::vector<CourseMotion> courses = course_motions(s);
+  context.courses = courses;
   const std::vector<double> rates = spring_rates(s.forces, s.force_context());
   context.spring_rates = rates;
   if (s.watch && s.bodies.find(s.watch->body)) {

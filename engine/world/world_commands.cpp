@@ -134,6 +134,9 @@ Result<JointId> World::create_joint(JointDef def) {
 
 Status World::set_joint(JointId id, JointDef def) {
   if (!state_->reserved.joints.contains(id)) return stale("joint");
+  // A definition that names no joint means itself, and is looked at as such.
+  for (CoordinateDrive& drive : def.drives)
+    if (drive.couple && drive.couple->joint == id) drive.couple->joint = {};
   if (Status s = validate_reserved(def, state_->reserved); !s) return s;
   state_->reserved.joints.change(id, def);
   state_->queue.push_back(SetJoint{id, std::move(def)});

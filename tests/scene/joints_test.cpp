@@ -2,6 +2,7 @@
 // and the list of faults that each wrong file has.
 #include "engine/math/time_course.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/build/joint_rank.hpp"
 #include "engine/scene/writer.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -111,6 +112,94 @@ TEST_CASE("couplings and courses that mean nothing are faults, and say what woul
   says(R"j("kind": "revolute", "motor": {"velocity": "= log(t)"})j", "not finite at t = 0");
   says(R"("kind": "revolute", "motor": {"velocity": [[1, 2], [0, 3]]})", "times must ascend");
   says(R"("kind": "revolute", "motor": {"velocity": [1, 2]})", "array of 2 numbers");
+}
+
+TEST_CASE("couplings that no motion fulfils are faults") {
+  const auto first = [](const std::string& joints) {
+    const std::string text = all_text(faults_of(joints));
+    INFO(text);
+    return text;
+  };
+  const auto says = [&](const std::string& joints, const std::string& expected) {
+    const std::string text = first(joints);
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, text, " should say ", expected);
+  };
+  const auto hinge = [](const std::string& name, const std::string& body, const std::string& keys) {
+    return "\"" + name + "\": {\"kind\": \"revolute\", \"b\": \"" + body + "\", " + keys + "}";
+  };
+  says(hinge("j", "b", R"("couple": {"joint": "j", "ratio": 2, "offset_deg": 30})"),
+       "cannot be coupled to itself");
+  // 2 * 2 * 2 = 8: x = 8 x + 8 * 10 deg only at -80/7 deg.
+  const auto circle = [&](const std::string& of_k, const std::string& of_l) {
+    return hinge("j", "a", R"("couple": {"joint": "l", "ratio": 2, "offset_deg": 10})") + "," +
+           hinge("k", "b", "\"couple\": {\"joint\": \"j\", " + of_k + "}") + "," +
+           hinge("l", "link[0]", "\"couple\": {\"joint\": \"k\", " + of_l + "}");
+  };
+  says(circle("\"ratio\": 2", "\"ratio\": 2"),
+       "joints.j: is coupled to itself (through 'l', 'k', 'j') by x = 8 x + 10 deg, which only "
+       "-1.42857 deg fulfils");
+  says(circle("\"ratio\": 2", "\"ratio\": 0.25"), "by x = x + 10 deg, which nothing fulfils");
+  with_joints(circle("\"ratio\": 2", R"("ratio": 0.25, "offset_deg": -5)"));
+  // Motors of any strength: j = -2 k, so 1 rad/s here is -0.5 rad/s there.
+  const auto motors = [&](const std::string& of_j, const std::string& of_k) {
+    return hinge("j", "a",
+                 "\"couple\": {\"joint\": \"k\", \"ratio\": -2}, \"motor\": {" + of_j + "}") +
+           "," + hinge("k", "b", "\"motor\": {" + of_k + "}");
+  };
+  says(motors("\"velocity\": 1", "\"velocity\": 1"),
+       "joints.k: its motor holds 1 rad/s, but the couplings and the motor at 'j', which holds 1 "
+       "rad/s, ask for -0.5 rad/s");
+  says(motors("\"velocity\": \"= 2*t\"", "\"velocity\": \"= t\""), "no motion fulfils both");
+  with_joints(motors("\"velocity\": 1", "\"velocity\": -0.5"));
+  with_joints(motors("\"velocity\": \"= 2*t\"", "\"velocity\": \"= -t\""));
+  with_joints(motors("\"velocity\": 1", R"("velocity": 1, "max_force": 5)"));
+  says(hinge("j", "a", R"("couple": {"joint": "k", "ratio": 0}, "motor": {"velocity": 1})") + "," +
+           hinge("k", "b", "\"collide\": true"),
+       "lets it stand");
+}
+
+TEST_CASE("equations of joints that depend on others are counted") {
+  const auto rank = [](const std::string& joints) { return joint_rank(with_joints(joints)); };
+  const std::string hinge = R"("j": {"kind": "revolute", "b": "b", "anchor": [1, 4, 3])";
+  CHECK(rank(hinge + "}").rows == 5);
+  CHECK(rank(hinge + "}").rank == 5);
+  CHECK(rank(hinge + R"(, "motor": {"velocity": 1}})").rank == 6);
+  // Two hinges of a door on one axis: the body keeps one freedom of six.
+  const JointRank door =
+      rank(hinge + R"(}, "k": {"kind": "revolute", "b": "b", "anchor": [1, 4, 4]})");
+  CHECK(door.rows == 10);
+  CHECK(door.rank == 5);
+  REQUIRE(door.dependent.size() == 1);
+  CHECK(text_of(door) == "joint rows: 10, rank 5, dependent: 5 of 'k'");
+  // Two hinges that follow each other one to one are tied twice.
+  const std::string pair =
+      hinge + R"(, "couple": {"joint": "l"}}, "l": {"kind": "revolute", "b": "a",
+    "anchor": [1, 2, 3], "couple": {"joint": "j"}})";
+  CHECK(rank(pair).rows == 12);
+  CHECK(rank(pair).rank == 11);
+}
+
+TEST_CASE("joints that do not begin as they are to be say by how much") {
+  const auto warns = [](const std::string& joints, const std::string& expected) {
+    const BuiltScene s = with_joints(joints);
+    std::string text;
+    for (const std::string& line : s.warnings) text += line + "\n";
+    CHECK_MESSAGE((expected.empty() ? text.empty() : text.find(expected) != std::string::npos),
+                  text, " should say ", expected);
+  };
+  const std::string turned =
+      R"("j": {"kind": "revolute", "b": "b", "anchor": [1, 4, 3], "start_deg": 90, )";
+  warns(turned + R"("limits": {"lower_deg": -10, "upper_deg": 10}})",
+        "joints.j: begins at 90 deg, 80 deg beyond its upper limit of 10 deg");
+  warns(turned + R"("limits": {"lower_deg": 100, "stiffness": 5}})",
+        "10 deg beyond its lower limit of 100 deg; the limit's stiffness");
+  warns(turned + R"("limits": {"upper_deg": 90.0001}})", "");
+  const std::string leader = R"(, "k": {"kind": "revolute", "b": "a", "anchor": [1, 2, 3]})";
+  warns(turned + R"("couple": {"joint": "k", "offset_deg": 60}})" + leader,
+        "joints.j: begins at 90 deg, but 'k', which it is coupled to, begins at 0 deg and asks for "
+        "60 "
+        "deg: 30 deg off");
+  warns(turned + R"("couple": {"joint": "k", "offset_deg": 90}})" + leader, "");
 }
 
 TEST_CASE("targets of motors and ways of kinematic bodies over time") {

@@ -9,6 +9,8 @@
 #include "tests/support/why_not.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <string>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -191,4 +193,151 @@ TEST_CASE("a course that ends in no number stops the tick and says whose it is")
   const auto failed = w->step();
   REQUIRE_FALSE(failed.ok());
   CHECK(failed.error().text().find("course has no finite value at t = 0.25") != std::string::npos);
+}
+
+namespace {
+
+/// A body that hangs by a joint on one that follows x(t).
+struct Carrier : TestWorld {
+  BodyId carrier, load;
+  JointId joint;
+
+  Carrier(const WorldSettings& settings, Course x, JointDef def, const Vec3& place = Vec3::Zero())
+      : TestWorld(settings) {
+    BodyCourse course;
+    course.x[0] = std::move(x);
+    carrier = add(carried(Vec3::Zero(), course, {0.1, 0.1, 0.1}));
+    BodyDef d;
+    d.mass = 1;
+    d.inertia = Vec3(1, 1, 1);
+    d.pose.x = place;
+    load = add(d);
+    def.a = carrier, def.b = load;
+    def.frame_b.x = -place;
+    const auto id = world->create_joint(def);
+    REQUIRE_MESSAGE(id.ok(), test::why_not(id));
+    joint = *id;
+    apply();
+  }
+  double work(LedgerLine of) const { return world->frame()->ledger->line(of).total().work; }
+};
+
+JointDef of_kind(JointKind kind) {
+  JointDef def;
+  def.kind = kind;
+  return def;
+}
+
+/// Angles at t = 1, 2 .. of a pendulum whose pivot goes as A sin(w t): Lagrange's equation
+///   (I + m l^2) q'' = -m l (g sin q + x'' cos q) - friction sign(q'), by Runge-Kutta's method with
+/// steps of 1e-4 s; the pivot's start is a blow.
+std::vector<double> shaken_pendulum(double A, double w, double friction, int seconds) {
+  const double m = 1, l = 0.5, whole = 1 + m * l * l, g = 9.81, h = 1e-4;
+  double q = 0, u = -m * l * A * w / whole;
+  const auto change = [&](double t, double q_now, double u_now) {
+    const double pivot = -A * w * w * std::sin(w * t);
+    return (-m * l * (g * std::sin(q_now) + pivot * std::cos(q_now)) -
+            (u_now > 0 ? friction : -friction)) /
+           whole;
+  };
+  std::vector<double> out;
+  for (int i = 0; i < seconds * 10000; ++i) {
+    const double t = i * h;
+    const double k1 = change(t, q, u), u1 = u;
+    const double u2 = u + 0.5 * h * k1, k2 = change(t + 0.5 * h, q + 0.5 * h * u1, u2);
+    const double u3 = u + 0.5 * h * k2, k3 = change(t + 0.5 * h, q + 0.5 * h * u2, u3);
+    const double u4 = u + h * k3, k4 = change(t + h, q + h * u3, u4);
+    q += h / 6 * (u1 + 2 * u2 + 2 * u3 + u4);
+    u += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    if ((i + 1) % 10000 == 0) out.push_back(q);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a joint pulls with the mass times the acceleration of a course, and the course works") {
+  for (const char* stepper : {"realtime", "event"}) {
+    INFO(stepper);
+    Carrier c(weightless(stepper), formula("10*t^2"), of_kind(JointKind::rigid));
+    c.run(1);
+    const auto reactions = c->joint_reactions();
+    REQUIRE_MESSAGE(reactions.ok(), test::why_not(reactions));
+    CHECK((reactions->at(0).force - Vec3(20, 0, 0)).norm() < 1e-6);
+    // Under realtime the mean is that of the last sub-step, and all of the change is in the first.
+    if (std::string(stepper) == "realtime") continue;
+    const JointFrame mean = c.world->frame()->joints->front();
+    CHECK((mean.mean_force - Vec3(20, 0, 0)).norm() < 1e-6);
+  }
+  // The velocity at the end of a tick is that of the course, and so is the work.
+  Carrier along(weightless("event"), formula("10*t^2"), of_kind(JointKind::rigid));
+  along.run(1);
+  CHECK(along.body(along.load).v.x() == doctest::Approx(20).epsilon(1e-9));
+  CHECK(along.work(LedgerLine::kinematic) == doctest::Approx(200).epsilon(1e-9));
+  CHECK(std::fabs(along.work(LedgerLine::projection)) < 1e-9);
+}
+
+TEST_CASE("a course that accelerates breaks a joint that is too weak for it") {
+  for (const char* stepper : {"realtime", "event"})
+    for (const double strength : {21.0, 19.0}) {
+      INFO(stepper, " ", strength);
+      JointDef def = of_kind(JointKind::rigid);
+      def.break_force = strength;
+      // Under realtime the first tick has half of the acceleration.
+      Carrier c(weightless(stepper), formula("10*t^2"), def);
+      c.run(1);
+      CHECK(c.world->frame()->stats.joints == (strength > 20 ? 1 : 0));
+    }
+}
+
+TEST_CASE("event: friction of a joint is bounded on a body that shakes") {
+  WorldSettings s;
+  s.stepper = "event";
+  for (const double friction : {0.0, 0.001, 0.05}) {
+    INFO(friction);
+    JointDef def = of_kind(JointKind::revolute);
+    def.drives[0].friction = friction;
+    Carrier c(s, formula("0.2*sin(3*t)"), def, {0, -0.5, 0});
+    const std::vector<double> expected = shaken_pendulum(0.2, 3, friction, 3);
+    for (int second = 0; second < 3; ++second) {
+      c.run(1);
+      const double angle = c.world->frame()->joints->front().coordinates[0].value;
+      CHECK(std::fabs(angle - expected[size_t(second)]) < 2e-4);
+    }
+  }
+}
+
+TEST_CASE("event: a course that starts at once is a blow, with its impulse and its work") {
+  for (const char* x : {"100*t", "100*max(0, t - 0.5)"}) {
+    INFO(x);
+    JointDef def = of_kind(JointKind::prismatic);
+    def.frame_a.q = def.frame_b.q = axis_angle(Vec3::UnitX(), -0.5 * std::numbers::pi);
+    Carrier c(weightless("event"), formula(x), def);
+    double blow = 0;
+    for (int i = 0; i < 60; ++i) {
+      c.step();
+      blow += c.world->frame()->joints->front().mean_force.x() / 60;
+    }
+    CHECK(blow == doctest::Approx(100).epsilon(1e-9));
+    CHECK(c.body(c.load).v.x() == doctest::Approx(100).epsilon(1e-9));
+    // J (v- + v+)/2 of each body: half of what the carrier gives is lost.
+    CHECK(c.work(LedgerLine::kinematic) == doctest::Approx(1e4).epsilon(1e-9));
+    CHECK(c.work(LedgerLine::joints) == doctest::Approx(-5e3).epsilon(1e-9));
+    CHECK(std::fabs(c.work(LedgerLine::projection)) < 1e-6);
+  }
+}
+
+TEST_CASE("event: a motor of any strength that starts fast loses no turn") {
+  for (const double rate : {100.0, 400.0, 5000.0}) {
+    INFO(rate);
+    CoordinateMotor m;
+    m.kind = MotorKind::velocity;
+    m.target = rate;
+    Wheel w(weightless("event"), m);
+    for (int i = 1; i <= 6; ++i) {
+      w.step();
+      CHECK(w.angle().value == doctest::Approx(rate * i / 60).epsilon(2e-6));
+      CHECK(w.angle().rate == doctest::Approx(rate).epsilon(1e-9));
+    }
+  }
 }

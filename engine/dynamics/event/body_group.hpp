@@ -71,7 +71,8 @@ struct EventContext {
   std::span<Joint> joints;             ///< those that links name hold; their forces are told there
   std::span<JointCoupling> couplings;  ///< of these joints; likewise
   PairFilter apart;                    ///< bodies that do not collide
-  double gravity = 0;                  ///< magnitude, for the end of series of bounces [m/s2]
+  std::span<const CourseMotion> courses;  ///< of kinematic bodies, by slot
+  double gravity = 0;                     ///< magnitude, for the end of series of bounces [m/s2]
   NarrowPhase narrow_phase = &collide;
   const HierarchyKind* hierarchy = nullptr;
   std::function<std::string(uint32_t)> name_of;  ///< of a body by its slot, for errors

@@ -23,6 +23,7 @@ CauseEffect CauseEffect::read(std::span<const double> y) {
 void JointImpulses::add(const JointImpulses& more) {
   for (size_t k = 0; k < rows.size(); ++k) rows[k] += more.rows[k];
   for (size_t k = 0; k < motors.size(); ++k) motors[k] += more.motors[k];
+  for (size_t k = 0; k < turned.size(); ++k) turned[k] += more.turned[k];
 }
 
 void GroupBooks::add_causes(const GroupBooks& part) {

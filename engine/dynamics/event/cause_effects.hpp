@@ -60,6 +60,8 @@ using ContactEffects = std::array<CauseEffect, contact_causes>;
 struct JointImpulses {
   std::array<double, JointRows::most> rows{};     ///< of its parts, then along its coordinates
   std::array<double, most_coordinates> motors{};  ///< of these the share of motors
+  /// By how much angles changed meanwhile, full turns counted step by step [rad].
+  std::array<double, most_coordinates> turned{};
 
   void add(const JointImpulses& more);
 };

@@ -80,11 +80,12 @@ struct Rest {
 class Certifier {
  public:
   Certifier(std::span<RigidBody> bodies, const SmoothForces& forces, ContactForceMethod method,
-            const JointsAndCouplings& joints)
+            const JointsAndCouplings& joints, std::span<const CourseMotion> courses)
       : bodies_(bodies),
         forces_(forces),
         method_(method),
         joints_(joints),
+        courses_(courses),
         block_of_(bodies.size(), no_block) {}
 
   Status add(TouchingBodies& touching, ContactCertificates& out);
@@ -100,6 +101,7 @@ class Certifier {
   const SmoothForces& forces_;
   ContactForceMethod method_;
   JointsAndCouplings joints_;
+  std::span<const CourseMotion> courses_;
   std::vector<uint32_t> block_of_;
 };
 
@@ -203,6 +205,7 @@ void Certifier::balance(const TouchingBodies& touching, std::span<const double> 
 Status Certifier::add(TouchingBodies& touching, ContactCertificates& out) {
   for (size_t i = 0; i < touching.slots.size(); ++i) block_of_[touching.slots[i]] = uint32_t(i);
   EventSystem system(bodies_, touching.slots, block_of_, forces_, method_);
+  system.set_courses(courses_);
   system.set_joints(joints_, {touching.joints, touching.couplings});
   system.set_drive_modes();
   system.set_contacts(touching.contacts);
@@ -227,12 +230,13 @@ Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint3
                                               std::span<const EventContact> contacts,
                                               const SmoothForces& forces, ContactForceMethod method,
                                               const JointsAndCouplings& joints,
-                                              std::span<const BodyLink> links) {
+                                              std::span<const BodyLink> links,
+                                              std::span<const CourseMotion> courses) {
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   GroupForceProblem out;
   method.least = true;
   method.tell = &out.problem;
-  Certifier certifier(bodies, forces, method, joints);
+  Certifier certifier(bodies, forces, method, joints, courses);
   Status done;
   for (TouchingBodies& touching : touching_bodies(bodies, contacts, joints, links)) {
     if (!std::binary_search(touching.slots.begin(), touching.slots.end(), slot)) continue;
@@ -265,10 +269,11 @@ Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,
                                     const JointsAndCouplings& joints,
-                                    std::span<const BodyLink> links) {
+                                    std::span<const BodyLink> links,
+                                    std::span<const CourseMotion> courses) {
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   method.least = true;
-  Certifier certifier(bodies, forces, method, joints);
+  Certifier certifier(bodies, forces, method, joints, courses);
   ContactCertificates out;
   Status done;
   for (TouchingBodies& touching : touching_bodies(bodies, contacts, joints, links)) {

@@ -9,13 +9,14 @@ namespace tumble {
 /// What the contacts of the event stepper claim at the bodies' present poses and velocities: the
 /// forces are solved for afresh, and of all that give this motion the least are told. Bodies that
 /// touch each other, or that one of the joints named by links holds together, are one problem.
-/// Bodies are given back as they were. `forces` may set what acts on any body. Error: no forces
-/// were found.
+/// Bodies are given back as they were. `forces` may set what acts on any body, `courses` how
+/// kinematic ones go on. Error: no forces were found.
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,
                                     const JointsAndCouplings& joints = {},
-                                    std::span<const BodyLink> links = {});
+                                    std::span<const BodyLink> links = {},
+                                    std::span<const CourseMotion> courses = {});
 
 /// The problem of contact forces of the bodies that touch, or are jointed with, one of them.
 struct GroupForceProblem {
@@ -36,6 +37,7 @@ Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint3
                                               std::span<const EventContact> contacts,
                                               const SmoothForces& forces, ContactForceMethod method,
                                               const JointsAndCouplings& joints = {},
-                                              std::span<const BodyLink> links = {});
+                                              std::span<const BodyLink> links = {},
+                                              std::span<const CourseMotion> courses = {});
 
 }  // namespace tumble

@@ -64,6 +64,7 @@ EventGroup::EventGroup(std::span<RigidBody> bodies, BodyGroup& group,
       scratch_(state_.system.size()) {}
 
 EventGroup::~EventGroup() {
+  state_.system.rest_courses();
   if (state_.group.laid_out) *state_.group.laid_out = state_.system.give_joints();
 }
 
@@ -105,7 +106,7 @@ double EventGroup::passing_speed(const EventPair& p, double step) const {
   double speed = along ? std::fabs(n.dot(a.v - b.v)) : (a.v - b.v).norm();
   for (const uint32_t slot : {p.a.body, p.b.body}) {
     const RigidBody& body = state_.bodies[slot];
-    speed += step * body.inverse_mass * body.force.norm();
+    speed += step * (body.inverse_mass * body.force.norm() + state_.system.course_change(slot));
     if (!std::isfinite(body.bounding_radius)) continue;
     const Vec3& half = state_.group.reaches[slot].half;
     if (along)
@@ -167,6 +168,23 @@ Status EventGroup::step_to_event(double t, double& step, EventStats& stats) {
 bool EventGroup::stuck_at(double t) {
   if (state_.system.report().solved || state_.system.foresees()) return false;
   return !state_.system.derivative(t, start_.y, scratch_) && !state_.system.report().solved;
+}
+
+void EventGroup::count_turns() {
+  const bool first = angles_.empty();
+  angles_.resize(state_.group.joints.size());
+  for (size_t i = 0; i < angles_.size(); ++i) {
+    const Joint& joint = state_.context.joints[state_.group.joints[i]];
+    const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
+    if (!joint.followed() || !std::ranges::any_of(all, &JointCoordinate::turns)) continue;
+    const JointSides sides = sides_with_axes(joint, state_.bodies);
+    for (size_t k = 0; k < all.size(); ++k) {
+      if (!all[k].turns) continue;
+      const double angle = all[k].row(sides).error;
+      if (!first) state_.group.books.joints[i].turned[k] += nearest_turn(angle - angles_[i][k], 0);
+      angles_[i][k] = angle;
+    }
+  }
 }
 
 void EventGroup::note_gone() {
@@ -306,6 +324,8 @@ Status EventGroup::too_much(uint64_t budget) {
 }
 
 Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t allowed) {
+  count_turns();
+  impacts_.start_joints(stats);
   projection_.work_off_openings();
   if (part.begin == 0) {
     begin_tick();
@@ -369,6 +389,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
     for (EventContact& c : state_.contacts) c.impulse += step * c.force;
     state_.now = t = step >= h - t ? h : t + step;
     note_gone();
+    count_turns();
     if (Status done = impacts_.resolve(stats); !done) return done;
     stats.deepest = std::max(stats.deepest, state_.deepest());
   }

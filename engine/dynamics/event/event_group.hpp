@@ -48,6 +48,9 @@ class EventGroup {
   void begin_step(double t);
   void go_back();
   void note_gone();
+  /// Books by how much angles of joints have changed since the last call; no step turns a body so
+  /// far that full turns would be missed.
+  void count_turns();
   double safe_step(double most) const;
   double passing_speed(const EventPair& p, double step) const;
   /// No step that ends earlier is tried.
@@ -80,6 +83,7 @@ class EventGroup {
   FirstEvent first_event_;
   std::vector<double> y_, scratch_;
   StepStart start_;
+  std::vector<std::array<double, most_coordinates>> angles_;  ///< by joint, of the last count
 };
 
 }  // namespace tumble

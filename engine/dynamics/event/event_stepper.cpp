@@ -324,6 +324,14 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     for (const BodyGroup& g : groups_)
       if (g.time_stepped && std::ranges::find(g.bodies, context.search->body) != g.bodies.end())
         context.search->searches.clear();  // of what was given up
+  for (const CourseMotion& c : context.courses) {
+    bodies[c.slot].v = c.at_start.v + h * c.change.v;
+    bodies[c.slot].omega = c.at_start.omega + h * c.change.omega;
+  }
+  turned.assign(context.joints.size(), std::nullopt);
+  for (const BodyGroup& g : groups_)
+    for (size_t i = 0; i < g.joints.size() && !g.time_stepped; ++i)
+      turned[g.joints[i]] = g.books.joints[i].turned;
   for (const BodyGroup& g : groups_)
     if (!g.time_stepped) tell_joint_forces(g, h, context.joints, context.couplings);
   books.clear();

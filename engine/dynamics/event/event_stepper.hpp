@@ -7,7 +7,10 @@
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include <array>
+#include <optional>
 #include <unordered_map>
+#include <vector>
 
 namespace tumble {
 
@@ -47,6 +50,10 @@ class EventStepper {
   EventStats stats;  ///< of the last tick
   /// Of the last tick, by group; empty without EventContext::rates.
   std::vector<GroupBooks> books;
+
+  /// Of the last tick, by joint slot: by how much its angles changed [rad]; nothing of joints that
+  /// no group moved by events.
+  std::vector<std::optional<std::array<double, most_coordinates>>> turned;
 
   /// By body slot, those of particles' blocks with them; bodies behind the end have none. State.
   std::vector<TimeSteppedTicks> time_stepped;

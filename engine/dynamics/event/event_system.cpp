@@ -58,7 +58,9 @@ EventSystem::EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> 
     if (bodies[slot].dynamic()) {
       dynamic_.push_back(slot);
     } else {
-      kinematic_.push_back({slot, 0, bodies[slot].pose});
+      const RigidBody& b = bodies[slot];
+      Carried& k = kinematic_.emplace_back();
+      k.slot = slot, k.pose = b.pose, k.velocity = {b.v, b.omega};
     }
   }
   using enum ode::EntryKind;
@@ -176,14 +178,47 @@ double EventSystem::drive_work(std::span<const double> y) const {
 void EventSystem::place_kinematic(double t) {
   for (const Carried& k : kinematic_) {
     RigidBody& b = bodies_[k.slot];
-    b.pose.x = k.pose.x + (t - k.since) * b.v;
-    b.pose.q = integrate_rotation(k.pose.q, b.omega, t - k.since);
+    const double passed = t - k.since;
+    b.v = k.velocity.v + passed * k.change.v;
+    b.omega = k.velocity.omega + passed * k.change.omega;
+    b.pose.x = k.pose.x + passed * (k.velocity.v + 0.5 * passed * k.change.v);
+    b.pose.q =
+        integrate_rotation(k.pose.q, k.velocity.omega + 0.5 * passed * k.change.omega, passed);
   }
+}
+
+void EventSystem::set_courses(std::span<const CourseMotion> courses) {
+  for (Carried& k : kinematic_) {
+    const auto at = std::ranges::lower_bound(courses, k.slot, {}, &CourseMotion::slot);
+    if (at == courses.end() || at->slot != k.slot) continue;
+    k.given = k.velocity;
+    k.at_start = at->at_start;
+    k.change = at->change;
+  }
+}
+
+double EventSystem::course_change(uint32_t slot) const {
+  const auto at = std::ranges::find(kinematic_, slot, &Carried::slot);
+  return at == kinematic_.end() ? 0 : at->change.v.norm();
+}
+
+void EventSystem::rest_courses() {
+  for (const Carried& k : kinematic_)
+    if (k.given) bodies_[k.slot].v = k.given->v, bodies_[k.slot].omega = k.given->omega;
 }
 
 std::vector<double> EventSystem::read(double t) {
   now_ = t;
-  for (Carried& k : kinematic_) k = {k.slot, t, bodies_[k.slot].pose};
+  for (Carried& k : kinematic_) {
+    RigidBody& b = bodies_[k.slot];
+    if (k.at_start) {
+      b.v = k.at_start->v + t * k.change.v;
+      b.omega = k.at_start->omega + t * k.change.omega;
+    }
+    k.pose = b.pose;
+    k.velocity = {b.v, b.omega};
+    k.since = t;
+  }
   std::vector<double> y(size());
   for (size_t i = 0; i < dynamic_.size(); ++i) {
     const RigidBody& b = bodies_[dynamic_[i]];
@@ -343,6 +378,10 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     const Mat3& inverse = block.inverse_inertia = inverse_inertias_[block_of_[slot]];
     block.v = b.inverse_mass * b.force;
     block.omega = inverse * (b.torque - b.omega.cross(inertias_[block_of_[slot]] * b.omega));
+  }
+  for (const Carried& k : kinematic_) {
+    blocks_[block_of_[k.slot]].v = k.change.v;
+    blocks_[block_of_[k.slot]].omega = k.change.omega;
   }
   drives_.act(bodies_, t, blocks_, rows_);
   if (!joints_.empty()) {

@@ -8,6 +8,7 @@
 #include "engine/math/ode/system.hpp"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,13 @@ namespace tumble {
 /// poses and velocities, at a time [s] since the beginning of the tick.
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
+/// How a kinematic body goes through a tick in which its velocity changes evenly.
+struct CourseMotion {
+  uint32_t slot = 0;
+  BodyVelocity at_start;  ///< of the tick
+  BodyVelocity change;    ///< per second
+};
+
 /// Kinetic energy of a body that turns with an angular velocity [J].
 inline double turning_energy(const RigidBody& b, const Vec3& omega) {
   const Vec3 own = b.pose.inverse_direction(omega);
@@ -25,7 +33,8 @@ inline double turning_energy(const RigidBody& b, const Vec3& omega) {
 
 /// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
 /// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
-/// velocity. Derivatives leave the bodies where they were asked for: write() puts them right.
+/// velocity, or as their courses have it. Derivatives leave the bodies where they were asked for:
+/// write() puts them right.
 class EventSystem final : public ode::System {
  public:
   /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` gives by slot the
@@ -33,6 +42,14 @@ class EventSystem final : public ode::System {
   EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
+
+  /// The courses of kinematic bodies in the tick, by slot; before the first read(). Between steps
+  /// the bodies have the velocity of the moment; rest_courses() gives them that back which they
+  /// had.
+  void set_courses(std::span<const CourseMotion> courses);
+  void rest_courses();
+  /// How much faster a body's centre becomes by its course, at most [m/s2].
+  double course_change(uint32_t slot) const;
 
   /// The equations of joints of an earlier system, whose memory set_joints() uses where they are
   /// laid out alike; and those of this one for the next.
@@ -108,8 +125,11 @@ class EventSystem final : public ode::System {
  private:
   struct Carried {
     uint32_t slot;
-    double since;
-    Pose pose;
+    Pose pose;  ///< and velocity, at a moment
+    BodyVelocity velocity;
+    double since = 0;                             ///< the moment
+    BodyVelocity change;                          ///< per second
+    std::optional<BodyVelocity> given, at_start;  ///< of those on a course
   };
   void place_kinematic(double t);
   size_t first_quadrature() const { return 13 * dynamic_.size(); }

@@ -20,19 +20,23 @@ Row row_inwards(const DrivePart& limit, const Row& along) {
 
 }  // namespace
 
-std::vector<double> GroupDrives::start_motors(std::vector<DofBlock>& moving) {
-  if (drives().empty()) return {};
+std::vector<double> GroupDrives::start_joints(std::vector<DofBlock>& moving) {
+  Articulation& joints = state_.system.joints();
+  if (joints.empty()) return {};
   drives().follow(state_.bodies, state_.system.now());
-  drives().stop_motors(state_.bodies, state_.system.now(), state_.system.joints());
-  const Articulation& joints = state_.joints_now();
-  moving = state_.blocks();
+  drives().stop_motors(state_.bodies, state_.system.now(), joints);
+  joints.look_where_moved(state_.bodies, state_.system.now());
+  moving.resize(state_.group.bodies.size());
+  put_velocities(state_.bodies, state_.group.bodies, moving);
   const auto off = [&](size_t row) {
-    return joints.held()[row].use == RowUse::motor &&
+    return joints.held()[row].use != RowUse::armature &&
            std::fabs(joints.rate_off(row, moving)) > tolerances::still_speed;
   };
   bool any = false;
   for (size_t i = 0; i < joints.size() && !any; ++i) any = off(i);
   if (!any) return {};
+  moving = state_.blocks();
+  state_.joints_now();
   std::vector<double> impulses(joints.size());
   joints.hold_velocities(moving, impulses);
   return impulses;

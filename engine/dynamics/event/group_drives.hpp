@@ -13,10 +13,11 @@ class GroupDrives {
   bool accept_depths(double worked_off) {
     return drives().accept_depths(state_.bodies, state_.system.now(), worked_off);
   }
-  /// From here on angles are counted, and steps begin. Motors of any strength whose rate is off get
-  /// it by an impulse, or stand where they would drive beyond a limit; gives these impulses by row
-  /// of the joints, empty if there are none, and the velocities then.
-  std::vector<double> start_motors(std::vector<DofBlock>& moving);
+  /// From here on angles are counted, and steps begin. Rows of joints whose rate is off, and those
+  /// of motors of any strength, get it by an impulse; such motors stand where they would drive
+  /// beyond a limit. Gives these impulses by row of the joints, empty if there are none, and the
+  /// velocities then.
+  std::vector<double> start_joints(std::vector<DofBlock>& moving);
   /// Limits that are reached, by part.
   std::vector<size_t> touching() const;
   /// Whether any of these is approached so fast that it collides.

@@ -74,9 +74,9 @@ void GroupImpacts::book_impulses(std::span<const ImpactPoint> points,
   state_.group.books.add_impulses(state_.system.joints(), shared);
 }
 
-void GroupImpacts::start_motors(EventStats& stats) {
+void GroupImpacts::start_joints(EventStats& stats) {
   std::vector<DofBlock> moving;
-  const std::vector<double> impulses = drives_.start_motors(moving);
+  const std::vector<double> impulses = drives_.start_joints(moving);
   if (impulses.empty()) return;
   book_impulses({}, {}, impulses, moving);
   state_.set_velocities(moving);
@@ -191,7 +191,7 @@ bool GroupImpacts::stop_jams(EventStats& stats) {
 Status GroupImpacts::resolve(EventStats& stats) {
   if (stop_requested()) return stopped_error();
   charge_work(2 * prices::gap, state_.contacts.size());
-  start_motors(stats);
+  start_joints(stats);
   std::vector<size_t> touching;
   const std::vector<size_t> limits = drives_.touching();
   bool hits = drives_.hit(limits);

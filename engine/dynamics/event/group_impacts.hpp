@@ -12,11 +12,13 @@ class GroupImpacts {
 
   /// Resolves what collides, closes what rests, and puts right what is left.
   Status resolve(EventStats& stats);
+  /// Velocities that joints and motors of any strength do not allow (bodies on courses begin to
+  /// move, motors start) end by impulses.
+  void start_joints(EventStats& stats);
   /// Where there are no finite forces: impulses that stop slip. False when none do.
   bool stop_jams(EventStats& stats);
 
  private:
-  void start_motors(EventStats& stats);
   /// Of contacts, and of limits of joints.
   Status collide(std::span<const size_t> touching, std::span<const size_t> limits,
                  EventStats& stats);

@@ -52,6 +52,7 @@ GroupState::GroupState(std::span<RigidBody> all_bodies, BodyGroup& of,
       system(bodies, group.bodies, block_of, forces, context.forces),
       pairs(group.pairs),
       contacts(group.contacts) {
+  system.set_courses(context.courses);
   if (group.laid_out) system.take_joints(std::move(*group.laid_out));
   system.set_joints({context.joints, context.couplings}, {group.joints, group.couplings});
   if (context.rates) system.book(*context.rates);

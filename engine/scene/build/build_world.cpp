@@ -2,6 +2,7 @@
 #include "engine/dynamics/particles/emission_bounds.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/body_defs.hpp"
+#include "engine/scene/build/coupling_faults.hpp"
 #include "engine/scene/build/emitter_defs.hpp"
 #include "engine/scene/build/fluid_start.hpp"
 #include "engine/scene/build/force_defs.hpp"
@@ -199,6 +200,8 @@ class Builder {
           break;
         }
     }
+    apply();
+    for (auto& [path, sentence] : coupling_faults(built_)) fault(path, std::move(sentence));
   }
 
   void add_forces() {

@@ -131,8 +131,9 @@ Error coupling_error(std::string message) {
 }
 
 /// What copy `i` of a joint follows by a coordinate.
-Result<CoordinateCouple> couple_of(const CoupleDescription& d, int i, JointKind own_kind,
-                                   size_t own_coordinate, const BuiltScene& built) {
+Result<CoordinateCouple> couple_of(const CoupleDescription& d, int i, JointId own,
+                                   JointKind own_kind, size_t own_coordinate,
+                                   const BuiltScene& built) {
   CoordinateCouple out{{}, 0, d.ratio, given(d.offset, d.offset_deg).value_or(0)};
   JointKind kind = own_kind;
   if (!d.joint.empty()) {
@@ -147,7 +148,7 @@ Result<CoordinateCouple> couple_of(const CoupleDescription& d, int i, JointKind 
   const size_t at = d.coordinate.empty() ? 0 : coordinate_named(kind, d.coordinate);
   if (at >= all.size() || (d.coordinate.empty() && all.size() > 1))
     return coupling_error(names_of_coordinates(entry_of(kind)));
-  if (d.joint.empty() && at == own_coordinate)
+  if ((d.joint.empty() || out.joint == own) && at == own_coordinate)
     return coupling_error("a coordinate cannot be coupled to itself: name another joint");
   out.coordinate = uint32_t(at);
   return out;
@@ -169,7 +170,7 @@ Result<std::vector<std::pair<JointId, JointDef>>> couple_joints(const std::strin
     JointDef def = *built.world->joint(it->second);
     for_coordinates(joint, [&](size_t k, const DriveDescription& d) {
       if (!d.couple || error) return;
-      const auto couple = couple_of(*d.couple, i, joint.kind, k, built);
+      const auto couple = couple_of(*d.couple, i, it->second, joint.kind, k, built);
       if (couple)
         def.drives[k].couple = *couple;
       else

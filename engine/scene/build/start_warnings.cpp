@@ -1,6 +1,8 @@
 #include "engine/scene/build/start_warnings.hpp"
 
+#include "engine/scene/build/joint_starts.hpp"
 #include "engine/scene/build/pair_limits.hpp"
+#include "engine/scene/build/sentences.hpp"
 #include "engine/scene/build/spring_limits.hpp"
 #include "engine/world/world.hpp"
 
@@ -13,30 +15,12 @@
 namespace tumble {
 namespace {
 
-/// Of each kind so many are named one by one; copies of a body would all say the same.
-constexpr size_t most_named = 3;
 /// A rod may be off by this part of its length: what rounding in a scene's numbers makes [-].
 constexpr double length_slack = 0.01;
 /// A body this many times as large as the others are in the middle ...
 constexpr double out_of_proportion = 50;
 /// ... and larger than anything that falls in a room [m].
 constexpr double enormous = 50;
-
-/// The first few of a kind, and how many more there are.
-class Sentences {
- public:
-  explicit Sentences(std::vector<std::string>& out) : out_(out) {}
-  ~Sentences() {
-    if (count_ > most_named) out_.back() += fmt::format(" (and {} more)", count_ - most_named);
-  }
-  void add(std::string sentence) {
-    if (++count_ <= most_named) out_.push_back(std::move(sentence));
-  }
-
- private:
-  std::vector<std::string>& out_;
-  size_t count_ = 0;
-};
 
 void look_at_rods(const BuiltScene& built, std::vector<std::string>& out) {
   Sentences sentences(out);
@@ -154,6 +138,7 @@ std::vector<std::string> start_warnings(const BuiltScene& built) {
   if (!built.world) return out;
   look_at_rods(built, out);
   look_at_springs(built, out);
+  for (std::string& line : joint_start_warnings(built)) out.push_back(std::move(line));
   for (std::string& line : spring_limit_warnings(built)) out.push_back(std::move(line));
   for (std::string& line : pair_limit_warnings(built)) out.push_back(std::move(line));
   look_at_bodies(built, out);

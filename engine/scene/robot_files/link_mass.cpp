@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-constexpr double water = 1000;  // [kg/m3]
+constexpr double water = 1000, densest = 22590;  // [kg/m3], the latter of osmium
 
 /// Of all that collides, or is drawn, at density 1; mass 0 where there is nothing.
 MassProperties geometry_mass(const RobotLink& link) {
@@ -22,6 +22,33 @@ MassProperties geometry_mass(const RobotLink& link) {
   for (const RobotGeometry& g : link.collides.empty() ? link.drawn : link.collides)
     if (const auto m = mass_of(g, 1)) parts.push_back(*m);
   return compound(parts);
+}
+
+/// A ball resists turning least of all bodies of its mass and density.
+double least_inertia(double mass, double density) {
+  const double radius = std::cbrt(0.75 * mass / (density * std::numbers::pi));
+  return 0.4 * mass * radius * radius;
+}
+
+/// Inertia so small that no matter has it: links that hang on such a one at an arm swing it about
+/// with forces that neither stepper resolves.
+void look_at_density(const RobotLink& link, const Vec3& moments, const GivenInertia& given,
+                     RobotLog& log) {
+  const double largest = moments.maxCoeff();
+  if (!(largest < least_inertia(link.mass.mass, densest))) return;
+  const MassProperties shape = geometry_mass(link);
+  const double of_shape =
+      shape.mass > 0 ? inertia_about(shape.times(link.mass.mass / shape.mass), link.mass.centre)
+                           .diagonal()
+                           .maxCoeff()
+                     : 0;
+  log.warn(given.at,
+           fmt::format("link '{}': {:.6g} kg with a moment of inertia of {:.3g} kg m2 at most is "
+                       "denser than any matter, and joints on it may blow up (a ball of water has "
+                       "{:.3g}{})",
+                       link.name, link.mass.mass, largest, least_inertia(link.mass.mass, water),
+                       of_shape > 0 ? fmt::format(", its geometry, evenly filled, {:.3g}", of_shape)
+                                    : std::string()));
 }
 
 }  // namespace
@@ -59,6 +86,7 @@ void complete_mass(RobotLink& link, const GivenInertia& given, RobotLog& log) {
                            "others; the nearest that one has are taken: {:.6g}, {:.6g}, {:.6g}",
                            link.name, made->given.x(), made->given.y(), made->given.z(),
                            made->made.x(), made->made.y(), made->made.z()));
+    look_at_density(link, made->made, given, log);
     return;
   }
   const MassProperties shape = geometry_mass(link);
@@ -66,8 +94,7 @@ void complete_mass(RobotLink& link, const GivenInertia& given, RobotLog& log) {
     m.inertia = inertia_about(shape.times(m.mass / shape.mass), m.centre);
     if (const auto sane = physical_inertia(m.inertia)) m.inertia = sane->inertia;
   } else {
-    const double radius = std::cbrt(0.75 * m.mass / (water * std::numbers::pi));
-    m.inertia = 0.4 * m.mass * radius * radius * Mat3::Identity();
+    m.inertia = least_inertia(m.mass, water) * Mat3::Identity();
   }
   log.warn(given.at,
            fmt::format("link '{}' has a mass and {} inertia: that of {} is taken", link.name,

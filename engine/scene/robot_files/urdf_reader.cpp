@@ -35,6 +35,10 @@ void read_limit(const XmlElement& e, size_t type, RobotJoint& joint, RobotLog& l
   a.read("lower", lower);
   a.read("upper", upper);
   a.read("effort", joint.effort);
+  if (joint.effort && !(*joint.effort >= 0)) {
+    a.fault("effort", fmt::format("must not be negative, got {}", *joint.effort));
+    joint.effort.reset();
+  }
   a.warn_of({"velocity"}, "joints have no greatest speed here");
   if (type == urdf_type::continuous) {
     if (lower || upper)
@@ -150,6 +154,21 @@ UrdfJoint read_urdf_joint(const XmlElement& e, RobotLog& log) {
   return out;
 }
 
+/// What is fixed, or free altogether, has no coordinate that another could follow.
+void let_go_of_unmoved(std::vector<UrdfJoint>& joints, RobotLog& log) {
+  for (UrdfJoint& joint : joints)
+    for (RobotJoint& c : joint.coordinates) {
+      if (!c.mimic) continue;
+      const auto leader = std::ranges::find(joints, c.mimic->joint, &UrdfJoint::name);
+      if (leader == joints.end() || !leader->coordinates.empty()) continue;
+      log.warn(joint.at,
+               fmt::format("joint '{}' does not follow '{}', which is {} and has no "
+                           "coordinate: it moves by itself",
+                           joint.name, leader->name, leader->floating ? "floating" : "fixed"));
+      c.mimic.reset();
+    }
+}
+
 /// Puts links and joints together into one tree, parents first.
 class UrdfTree {
  public:
@@ -203,6 +222,10 @@ class UrdfTree {
       }
     const size_t parent = find(joint.parent, joint), child = find(joint.child, joint);
     if (parent == none || child == none) return;
+    if (parent == child)
+      return log_.fault(joint.at, fmt::format("joint '{}' hangs link '{}' on itself: parent and "
+                                              "child must be two links",
+                                              joint.name, joint.child));
     if (joint_of_[child] != none)
       return log_.fault(joint.at,
                         fmt::format("link '{}' hangs on two joints, '{}' and '{}': a URDF is a "
@@ -292,6 +315,7 @@ RobotModel read_urdf(const XmlElement& root, const std::filesystem::path& file,
     log.fault(root.at, "has no <link>");
     return out;
   }
+  let_go_of_unmoved(joints, log);
   out.links = UrdfTree(std::move(links), std::move(joints), log).take();
   return out;
 }

@@ -4,6 +4,7 @@
 #include "engine/scene/robot_files/physical_inertia.hpp"
 #include "tests/scene/robots/robot_text.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include <zlib.h>
@@ -193,8 +194,31 @@ TEST_CASE("urdf: what is not followed is said with its line") {
   CHECK(warns(r.log, "r.urdf:7: ", "<safety_controller>"));
   REQUIRE(r.model.links[1].joints[0].mimic);
   CHECK(r.model.links[1].joints[0].mimic->multiplier == 2);
+  const ReadRobot fixed = urdf(rod("a") + rod("b") + rod("c") +
+                               joint("j", "continuous", "a", "b", "<mimic joint=\"k\"/>") +
+                               joint("k", "fixed", "b", "c"));
+  CHECK(warns(fixed.log, "r.urdf:5: ", "'j' does not follow 'k', which is fixed"));
+  CHECK_FALSE(fixed.model.links[1].joints[0].mimic);
   const ReadRobot twice = urdf("<link name=\"a\" odd=\"1\"/>\n<link name=\"b\" odd=\"1\"/>");
   CHECK(warns(twice.log, "r.urdf:2: ", "<link>: 'odd' is not followed (also in line 3)"));
+}
+
+TEST_CASE("urdf: a link that is denser than any matter is named, with what would be one") {
+  const auto link = [](double inertia, const std::string& members) {
+    return fmt::format(R"(<link name="a"><inertial><mass value="2"/><inertia ixx="{0}" iyy="{0}" )"
+                       R"(izz="{0}" ixy="0" ixz="0" iyz="0"/></inertial>{1}</link>)",
+                       inertia, members);
+  };
+  // A ball of density d: r^3 = 3 m / (4 pi d), I = 0.4 m r^2; of osmium 6.1e-4, of water 4.9e-3.
+  const double osmium = 0.8 * std::pow(1.5 / (std::numbers::pi * 22590), 2.0 / 3);
+  CHECK(log_text(urdf(link(1.01 * osmium, "")).log).find("denser") == std::string::npos);
+  const ReadRobot bare = urdf(link(0.99 * osmium, ""));
+  CHECK(warns(bare.log, "r.urdf:2: ", "denser than any matter"));
+  CHECK(warns(bare.log, "r.urdf:2: ", "a ball of water has 0.00489"));
+  // m (a^2 + b^2) / 12 of a cube.
+  const ReadRobot cube =
+      urdf(link(1e-9, R"(<collision><geometry><box size="1 1 1"/></geometry></collision>)"));
+  CHECK(warns(cube.log, "r.urdf:2: ", "its geometry, evenly filled, 0.333"));
 }
 
 TEST_CASE("urdf: a mimic becomes a coupling, in radians and metres, where its leader puts it") {
@@ -270,7 +294,12 @@ TEST_CASE("urdf: faults have a line, a cause and a cure") {
   says(rod("a") + rod("a"), "r.urdf:3: a second link 'a'");
   says(rod("a") + rod("b"), "r.urdf:3: both 'a' and 'b' hang on no joint");
   says(rod("arm") + joint("j", "fixed", "arm", "arn"), "did you mean 'arm'");
-  says(rod("a") + joint("j", "fixed", "a", "a"), "every link hangs on another");
+  says(rod("a") + joint("j", "fixed", "a", "a"), "joint 'j' hangs link 'a' on itself");
+  says(rod("a") + rod("b") + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a"),
+       "every link hangs on another");
+  says(rod("a") + rod("b") +
+           joint("j", "revolute", "a", "b", R"(<limit lower="1" upper="2" effort="-5"/>)"),
+       "'effort' must not be negative, got -5");
   says(rod("a") + rod("b") + rod("c") + joint("j", "fixed", "a", "c") +
            joint("k", "fixed", "b", "c"),
        "r.urdf:6: link 'c' hangs on two joints, 'j' and 'k'");

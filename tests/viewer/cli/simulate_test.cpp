@@ -133,6 +133,42 @@ TEST_CASE("coordinates, motors and reactions of joints can be asserted, and whet
   CHECK(mentions(read_all(folder / "j.csv"), "value_1,rate_1,motor_1"));
 }
 
+TEST_CASE("--csv knows what joints do by the names of --assert") {
+  TempFolder folder;
+  // A door of 2 kg turns about its centre at 2 rad/s; 5 N push a slide of 1 kg across its weight.
+  const std::string scene = write_text(folder / "s.json", R"({"tumble_scene": 1, "bodies": {
+      "leaf": {"shape": {"type": "box", "size": [1, 1, 0.1]}, "mass": 2},
+      "sled": {"shape": {"type": "box", "size": [0.2, 0.2, 0.2]}, "mass": 1, "position": [5, 0, 0]}},
+    "joints": {
+      "door": {"kind": "revolute", "b": "leaf", "axis": [0, 1, 0], "motor": {"velocity": 2}},
+      "rail": {"kind": "prismatic", "b": "sled", "anchor": [5, 0, 0], "axis": [1, 0, 0],
+               "motor": {"force": 5}}}})");
+  for (const char* stepper : {"event", "realtime"}) {
+    CAPTURE(stepper);
+    const auto csv = folder / (std::string(stepper) + ".csv");
+    REQUIRE(tumble_program({"simulate", scene, "--seconds", "1", "--stepper", stepper, "--csv",
+                            csv.string(), "--assert", "abs(joints.door.motor_torque) < 1e-6",
+                            "--assert", "joints.rail.motor_force == joints.rail.position_motor"})
+                .code == 0);
+    const auto lines = lines_of(read_all(csv));
+    const auto cell = [&](const std::string& column) {
+      std::istringstream names(lines[0]), values(lines.back());
+      std::string name, value;
+      while (std::getline(names, name, ',') && std::getline(values, value, ','))
+        if (name == column) return std::stod(value);
+      FAIL("no column ", column);
+      return 0.0;
+    };
+    CHECK(cell("joints.door.angle") == doctest::Approx(2).epsilon(1e-9));
+    CHECK(cell("joints.door.rate") == doctest::Approx(2).epsilon(1e-9));
+    CHECK(std::fabs(cell("joints.door.motor_torque")) < 1e-6);
+    CHECK(cell("joints.door.reaction.z") == doctest::Approx(2 * 9.81).epsilon(1e-6));
+    CHECK(cell("joints.rail.rate") == doctest::Approx(5).epsilon(1e-6));
+    CHECK(cell("joints.rail.position") == doctest::Approx(2.5).epsilon(0.02));
+    CHECK(cell("joints.rail.motor_force") == doctest::Approx(5).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("the ledger can be asserted, an unknown name says what was meant and ends with 2") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());

@@ -1,3 +1,4 @@
+#include "engine/scene/build/joint_rank.hpp"
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/replay.hpp"
 #include "engine/world/world.hpp"
@@ -173,6 +174,11 @@ int run_check(const CheckLine& line) {
       report_overlaps(*scene->built.world, warnings, one);
       if (!line.json)
         fmt::print("{}: ok, {} bodies, {} particles\n", file, stats.bodies, stats.particles);
+      if (const JointRank rank = joint_rank(scene->built); rank.rows > 0) {
+        one["joint_rows"] = rank.rows;
+        one["joint_rank"] = rank.rank;
+        if (!line.json) fmt::print("{}: {}\n", file, text_of(rank));
+      }
       const auto assertions = line.run ? SceneAssertions::make(scene->built) : nullptr;
       if (assertions &&
           !run_assertions(*scene->built.world, *assertions, line.seconds, file, one)) {

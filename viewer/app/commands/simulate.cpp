@@ -18,7 +18,6 @@
 #include "viewer/capture/frame_clock.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -113,14 +112,6 @@ bool judge_asserts(const std::vector<Expression>& expressions,
                value ? "" : ": " + value.error().text(), values);
   }
   return all;
-}
-
-/// Names of the forces, by id.
-std::vector<std::pair<ForceId, std::string>> force_names(const BuiltScene& scene) {
-  std::vector<std::pair<ForceId, std::string>> out;
-  for (const auto& [name, id] : scene.forces) out.emplace_back(id, name);
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
 /// How a run ended.
@@ -320,7 +311,7 @@ int run_simulate(SimulateLine& line) {
   if (!export_plan) return report(export_plan.error(), exit_usage);
   auto particles = ParticleExport::begin(world, *export_plan);
   if (!particles) return report(particles.error(), exit_code_of_export(particles.error()));
-  Outputs outputs{EnergyCsv(line.csv, force_names(scene->built)),
+  Outputs outputs{EnergyCsv(line.csv, names_of(scene->built)),
                   ContactCsv(certified ? "" : line.contacts), JointCsv(line.joints),
                   StageTrace(line.trace), *std::move(particles)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);

@@ -46,7 +46,13 @@ std::optional<double> body_quantity(const BuiltScene& scene, const Frame& frame,
   return {};
 }
 
-/// "angle", "angle_rate", "angle_motor", and without a name where there is only one coordinate.
+/// What the force of a coordinate's motor is called.
+std::string_view motor_of(const JointCoordinate& c) {
+  return c.angle ? "motor_torque" : "motor_force";
+}
+
+/// "angle", "angle_rate", "angle_motor" or "angle_motor_torque", and the latter without a name
+/// where there is only one coordinate.
 std::optional<double> coordinate_quantity(const JointFrame& joint, std::string_view what) {
   const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
   for (size_t k = 0; k < all.size(); ++k) {
@@ -54,7 +60,9 @@ std::optional<double> coordinate_quantity(const JointFrame& joint, std::string_v
     const std::string name(all[k].name);
     if (what == name) return c.value;
     if (what == name + "_rate" || (all.size() == 1 && what == "rate")) return c.rate;
-    if (what == name + "_motor" || (all.size() == 1 && what == "motor")) return c.motor;
+    for (const std::string_view motor : {std::string_view("motor"), motor_of(all[k])})
+      if (what == name + "_" + std::string(motor) || (all.size() == 1 && what == motor))
+        return c.motor;
   }
   return {};
 }
@@ -247,8 +255,11 @@ std::string quantity_help() {
          "  .fluid_force .fluid_torque (of all fluids, mean of the last tick);\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep\n"
          "  joints.NAME.angle .position ... (value of the coordinate of this name [rad, m]),\n"
-         "  .angle_rate, .angle_motor (force of its motor, mean of the last tick), or .rate and\n"
-         "  .motor where there is one coordinate; .reaction.x .y .z and .reaction_torque.x .y .z\n"
+         "  .angle_rate, .angle_motor_torque .position_motor_force (of its motor, mean of the "
+         "last\n"
+         "  tick; also .angle_motor), or .rate and .motor_torque .motor_force .motor where there "
+         "is\n"
+         "  one coordinate; .reaction.x .y .z and .reaction_torque.x .y .z\n"
          "  (on b, torque about the anchor, in the joint's frame on a) .broken (0 or 1)\n"
          "  particles.NAME.count .speed (root mean square) .max_speed .temperature (2/3 of a\n"
          "  particle's kinetic energy about the common motion) .pressure (mean, of a fluid), and\n"
@@ -301,6 +312,19 @@ std::shared_ptr<const BuiltScene> names_with(const BuiltScene& names, const Fram
   return out;
 }
 
+std::vector<std::string> joint_quantities(const JointFrame& joint) {
+  const std::string head = "joints." + joint.name + ".";
+  const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
+  std::vector<std::string> out;
+  for (const JointCoordinate& c : all) {
+    const std::string name = head + std::string(c.name), own = all.size() == 1 ? head : name + "_";
+    out.insert(out.end(), {name, own + "rate", own + std::string(motor_of(c))});
+  }
+  for (const char* vector : {"reaction", "reaction_torque"})
+    for (const char* axis : {".x", ".y", ".z"}) out.push_back(head + vector + axis);
+  return out;
+}
+
 std::vector<std::string> quantity_names(const BuiltScene& scene) {
   return quantity_names(scene, *scene.world->frame());
 }
@@ -339,7 +363,8 @@ std::vector<std::string> quantity_names(const BuiltScene& scene, const Frame& fr
     const auto joint = std::ranges::find(*frame.joints, id, &JointFrame::id);
     if (joint == frame.joints->end()) continue;
     for (const JointCoordinate& c : entry_of(joint->kind).coordinates)
-      for (const char* what : {"", "_rate", "_motor"})
+      for (const std::string& what : {std::string(), std::string("_rate"), std::string("_motor"),
+                                      "_" + std::string(motor_of(c))})
         out.push_back("joints." + name + "." + std::string(c.name) + what);
   }
   for (const auto& [name, id] : scene.particles) {

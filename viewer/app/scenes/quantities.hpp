@@ -21,9 +21,10 @@ struct BuiltScene;
 /// - momentum.x .y .z, angular_momentum.x .y .z
 /// - bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed, .mass,
 ///   .asleep, .up.x (the body's y axis in the world), .fluid_force.x, .fluid_torque.x
-/// - joints.NAME.angle, .angle_rate, .angle_motor by the names of coordinates; .rate and .motor
-/// where
-///   there is one; .reaction.x, .reaction_torque.x (in the joint's frame on a), .broken
+/// - joints.NAME.angle, .angle_rate, .angle_motor_torque or .position_motor_force, of both
+/// .._motor,
+///   by the names of coordinates; .rate and .motor_torque where there is one; .reaction.x,
+///   .reaction_torque.x (in the joint's frame on a), .broken
 /// - particles.NAME.count .speed .max_speed .temperature .pressure, .centre.x, .low.x, .high.x (see
 ///   ParticleMeasures)
 /// - sensors.NAME.count and the other numbers of sensor_values(); .holds.BODY of a region
@@ -46,6 +47,9 @@ std::vector<std::string> quantity_names(const BuiltScene& scene);
 std::vector<std::string> quantity_names(const BuiltScene& names, const Frame& frame);
 /// The names with those of everything else that is there in a frame: what was built meanwhile.
 std::shared_ptr<const BuiltScene> names_with(const BuiltScene& names, const Frame& frame);
+
+/// What there is to know of a joint over time: its coordinates and reactions.
+std::vector<std::string> joint_quantities(const JointFrame& joint);
 
 /// The names above, for help and messages.
 std::string quantity_help();

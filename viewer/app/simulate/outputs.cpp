@@ -1,6 +1,8 @@
 #include "viewer/app/simulate/outputs.hpp"
 
+#include "engine/scene/build.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/scenes/quantities.hpp"
 
 #include <algorithm>
 
@@ -36,6 +38,12 @@ std::string body_name(const Frame& frame, BodyId id) {
 
 }  // namespace
 
+EnergyCsv::EnergyCsv(const std::filesystem::path& file, std::shared_ptr<const BuiltScene> names)
+    : file_(file), names_(std::move(names)) {
+  for (const auto& [name, id] : names_->forces) force_names_.emplace_back(id, name);
+  std::ranges::sort(force_names_);
+}
+
 void EnergyCsv::write_header(const Frame& frame) {
   header_ = true;
   const StepStats& stats = frame.stats;
@@ -53,6 +61,11 @@ void EnergyCsv::write_header(const Frame& frame) {
       for (const SensorValue& v : sensor_values(sensor))
         line += fmt::format(",sensors.{}.{}", sensor.name, v.name);
     }
+  if (frame.joints && frame.joints->size() <= most_joints)
+    for (const JointFrame& joint : *frame.joints)
+      if (names_->joints.contains(joint.name))
+        for (std::string& name : joint_quantities(joint))
+          line += "," + field(of_joints_.emplace_back(std::move(name)));
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
     line += fmt::format(",{}_ms", field(stage.name));
@@ -96,6 +109,11 @@ void EnergyCsv::write_row(const Frame& frame) {
     // Nothing destroys the sensors of a scene while it is simulated.
     const auto sensor = std::ranges::find(*frame.sensors, id, &SensorFrame::id);
     for (const SensorValue& v : sensor_values(*sensor)) line += numbers({v.value});
+  }
+  // What a joint that broke no longer has is an empty cell.
+  for (const std::string& name : of_joints_) {
+    const auto value = quantity(*names_, frame, name);
+    line += value ? numbers({*value}) : ",";
   }
   for (const std::string& name : stages_) {
     double seconds = 0;

@@ -11,16 +11,17 @@
 namespace tumble {
 
 class World;
+struct BuiltScene;
 
 /// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
-/// (work, and the change of the energy by it), what sensors say, and the wall time of each stage.
-/// The columns are those of the first step; stages that appear later are left out, and so are
-/// forces without a name.
+/// (work, and the change of the energy by it), what sensors say, coordinates and reactions of
+/// joints by the names of quantity(), and the wall time of each stage. More than `most_joints`
+/// joints are left out: JointCsv has a row for each. The columns are those of the first step;
+/// stages that appear later are left out, and so are forces without a name.
 class EnergyCsv {
  public:
-  EnergyCsv(const std::filesystem::path& file,
-            std::vector<std::pair<ForceId, std::string>> force_names)
-      : file_(file), force_names_(std::move(force_names)) {}
+  static constexpr size_t most_joints = 100;
+  EnergyCsv(const std::filesystem::path& file, std::shared_ptr<const BuiltScene> names);
   void add(const Frame& frame);
   Status commit();
   Status status() const { return file_.status(); }
@@ -35,6 +36,8 @@ class EnergyCsv {
   std::shared_ptr<const Frame> first_;
   std::vector<std::string> stages_;
   std::vector<SensorId> sensors_;
+  std::shared_ptr<const BuiltScene> names_;
+  std::vector<std::string> of_joints_;
   bool header_ = false;
   std::string start_row_;
 };
