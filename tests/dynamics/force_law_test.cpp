@@ -101,3 +101,18 @@ TEST_CASE("steps at one velocity share the force in their order, nothing moves w
   CHECK(locked.v == 0.5);
   CHECK(locked.force == 0);
 }
+
+TEST_CASE("a step without bounds holds the velocity nearest to its own that limits allow") {
+  for (const double at : {-2.0, 0.1, 3.0})
+    for (const double free : {-5.0, 0.0, 5.0}) {
+      ForceLaw law;
+      law.add_step(-1, 0, infinite);
+      law.add_step(0.5, -infinite, 0);
+      law.add_step(at, -infinite, infinite);
+      const ForceLaw::Solution s = law.solve(free, 0.7);
+      CHECK(s.v == std::clamp(at, -1.0, 0.5));
+      CHECK(free + 0.7 * s.force == doctest::Approx(s.v));
+      CHECK(s.parts[0] >= 0);
+      CHECK(s.parts[1] <= 0);
+    }
+}

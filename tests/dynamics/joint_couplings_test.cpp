@@ -4,6 +4,7 @@
 #include "tests/dynamics/event_world.hpp"
 #include "tests/dynamics/joint_world.hpp"
 
+#include <memory>
 #include <numbers>
 
 using namespace tumble;
@@ -117,4 +118,27 @@ TEST_CASE("a screw falls with g / (1 + I (2 pi / pitch)^2 / m), under either sol
 TEST_CASE("both coordinates of a coupling may be of joints of one body: a planet on its carrier") {
   check_planet<Realtime>();
   check_planet<Event>();
+}
+
+TEST_CASE("a motor turns a coupling of any ratio at its rate from the start") {
+  for (const double n : {0.1, 1.0, 10.0})
+    for (const bool on_first : {true, false}) {
+      CAPTURE(n);
+      CAPTURE(on_first);
+      Realtime w;
+      w.gravity.setZero();
+      const uint32_t first = wheel(w, {0, 1, 0}, 1, 1), second = wheel(w, {1, 1, 0}, 1, 1);
+      w.join(JointKind::revolute, no_body, first, at({0, 1, 0}));
+      w.join(JointKind::revolute, no_body, second, at({1, 1, 0}));
+      w.tie({0, 1, 0, 0, n, 0});
+      JointDrives drives;
+      drives[0].motor.kind = MotorKind::velocity;
+      drives[0].motor.target = 1;
+      w.joints[on_first ? 0 : 1].drives = std::make_shared<JointDrives>(drives);
+      for (int i = 0; i < 120; ++i) w.advance();
+      const double driven = on_first ? 1 / n : n;
+      CHECK(w.joints[on_first ? 0 : 1].value[0] == doctest::Approx(2).epsilon(1e-5));
+      CHECK(w.joints[on_first ? 1 : 0].value[0] == doctest::Approx(2 * driven).epsilon(1e-5));
+      CHECK(w.kinetic_energy() == doctest::Approx(0.5 * (1 + driven * driven)).epsilon(1e-6));
+    }
 }

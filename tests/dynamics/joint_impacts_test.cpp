@@ -163,3 +163,52 @@ TEST_CASE("a chain of links in a room gains no energy where everything bounces")
             CHECK(most < start * (ordinary ? 1.12 : 1.01));
           }
 }
+
+TEST_CASE("a ball bounces off a link whose hinge an armature burdens or a motor holds") {
+  for (const double hz : {60.0, 240.0})
+    for (const double e : {0.5, 1.0})
+      for (const double armature : {0.0, 0.5, 5.0})
+        for (const bool held : {false, true}) {
+          CAPTURE(hz);
+          CAPTURE(e);
+          CAPTURE(armature);
+          CAPTURE(held);
+          constexpr double speed = 5;
+          RodRow row(1, hz, 0, e);
+          JointDrives drives;
+          drives[0].armature = armature;
+          if (held) drives[0].motor.kind = MotorKind::velocity;
+          row.joints[0].drives = std::make_shared<JointDrives>(drives);
+          BodyDef d = body(sphere(0.1), {c, 0.5, 0}, 0, e);
+          d.mass = 1;
+          d.velocity = {0, -speed, 0};
+          const uint32_t ball = row.add(d);
+          int ticks = 0;
+          while (std::fabs(row.bodies[ball].v.y() + speed) < 1e-9 && ++ticks < hz) row.step();
+          const double turns = held ? 0 : c / (inertia + c * c + armature);
+          const double impulse = (1 + e) * speed / (1 + c * turns);
+          CHECK(std::fabs(row.bodies[ball].v.y() - (impulse - speed)) < 0.01 * speed);
+          CHECK(std::fabs(row.rate(0) + impulse * turns) < 0.01 * speed);
+        }
+}
+
+TEST_CASE("a slider with an armature bounces off a wall with all of its speed") {
+  for (const double armature : {0.5, 2.0, 5.0}) {
+    CAPTURE(armature);
+    JointWorld w;
+    w.gravity.setZero();
+    BodyDef wall = body(box(0.05, 1.5, 1.5), {1, 0, 0}, 0, 1);
+    wall.type = BodyType::fixed;
+    w.add(wall);
+    BodyDef d = body(sphere(0.1), Vec3::Zero(), 0, 1);
+    d.mass = 1;
+    d.velocity = {3, 0, 0};
+    const uint32_t slider = w.add(d);
+    w.join(JointKind::prismatic, no_body, slider, frame_along(Vec3::Zero(), {1, 0, 0}, {0, 1, 0}));
+    JointDrives drives;
+    drives[0].armature = armature;
+    w.joints[0].drives = std::make_shared<JointDrives>(drives);
+    w.run(0.5);
+    CHECK(w.bodies[slider].v.x() == doctest::Approx(-3).epsilon(0.01));
+  }
+}

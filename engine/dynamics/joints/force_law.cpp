@@ -24,6 +24,16 @@ double ForceLaw::Part::right(double v) const {
   return held_between(force - gain * v, least, most);
 }
 
+/// The nearest velocity at which no step of one side is without bounds.
+double ForceLaw::allowed(double v) const {
+  for (const Part& p : all()) {
+    if (!p.step || unbounded(p.least, p.most)) continue;
+    if (std::isinf(p.most)) v = std::max(v, p.at);
+    if (std::isinf(p.least)) v = std::min(v, p.at);
+  }
+  return v;
+}
+
 /// The solution at a velocity that is known: what the parts without a step there give, and the rest
 /// by those that have one.
 ForceLaw::Solution ForceLaw::shares_at(double v, double free, double compliance) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -21,10 +22,14 @@ class ForceLaw {
   size_t add(double force, double gain, double least, double most) {
     return put({force, gain, 0, least, most, false});
   }
+  /// What is bounded on neither side holds the velocity nearest to `at` that the steps before it
+  /// allow: what goes on for ever on one side, as limits do, leaves no other.
   size_t add_step(double at, double least, double most) {
-    return put({0, 0, at, least, most, true});
+    return put({0, 0, unbounded(least, most) ? allowed(at) : at, least, most, true});
   }
   size_t size() const { return count_; }
+  /// Where a step is.
+  double step_at(size_t part) const { return parts_[part].at; }
 
   struct Solution {
     double v = 0;      ///< velocity with the force
@@ -44,6 +49,8 @@ class ForceLaw {
     double left(double v) const;
     double right(double v) const;
   };
+  static bool unbounded(double least, double most) { return std::isinf(least) && std::isinf(most); }
+  double allowed(double v) const;
   size_t put(const Part& part) {
     assert(count_ < most_parts);
     parts_[count_] = part;

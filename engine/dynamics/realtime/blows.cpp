@@ -34,6 +34,10 @@ void for_bouncing(const SolverIsland& island, const F& f) {
     }
 }
 
+double speed_along(const SolverIsland& island, const JointBlock& joint, uint32_t row) {
+  return line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[row]);
+}
+
 void scale(double& now, double before, double share) {
   now = before + share * (now - before);
 }
@@ -104,18 +108,20 @@ double taken_by_contacts(const SolverIsland& island) {
 }
 
 void note_joint_speeds(const SolverIsland& island) {
-  for (JointBlock& joint : island.joints)
-    for (uint32_t i = 0; i < joint.kept; ++i)
-      joint.speeds[i] =
-          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]);
+  for (JointBlock& joint : island.joints) {
+    for (uint32_t i = 0; i < joint.count; ++i) joint.speeds[i] = speed_along(island, joint, i);
+    for (DriveRow& d : drives_of(island, joint)) d.noted = d.v;
+  }
 }
 double taken_by_joints(const SolverIsland& island, JointPass pass) {
   double taken = 0;
-  for (const JointBlock& joint : island.joints)
+  for (const JointBlock& joint : island.joints) {
     for (uint32_t i = 0; i < joint.kept; ++i)
-      taken -= 0.5 * joint.total(i, pass) *
-               (joint.speeds[i] +
-                line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]));
+      taken -= 0.5 * joint.total(i, pass) * (joint.speeds[i] + speed_along(island, joint, i));
+    for (uint32_t i = joint.kept; i < joint.count; ++i)
+      taken += drives_of(island, joint)[i - joint.kept].taken(joint.speeds[i],
+                                                              speed_along(island, joint, i));
+  }
   return taken;
 }
 
@@ -135,14 +141,20 @@ BlowEnergy blow_energy(const SolverIsland& island) {
     energy.linear += p.rebound * p.speed_before;
     energy.square += 0.5 * p.rebound * (speed - p.speed_before);
   });
-  for (const JointBlock& joint : island.joints)
-    for (uint32_t i = 0; i < joint.kept; ++i) {
+  for (const JointBlock& joint : island.joints) {
+    const std::span<const DriveRow> drives = drives_of(island, joint);
+    for (uint32_t i = 0; i < joint.count; ++i) {
       const double impulse = joint.relaxing[i] - joint.before_bounces[i];
-      const double speed =
-          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[i]);
-      energy.linear += impulse * joint.speeds[i];
-      energy.square += 0.5 * impulse * (speed - joint.speeds[i]);
+      const double frame = i < joint.kept ? 0 : drives[i - joint.kept].held_rate();
+      energy.linear += impulse * (joint.speeds[i] - frame);
+      energy.square += 0.5 * impulse * (speed_along(island, joint, i) - joint.speeds[i]);
     }
+    for (const DriveRow& d : drives) {
+      const double change = d.v - d.noted;
+      energy.linear += d.drive->armature * change * (d.noted - d.held_rate());
+      energy.square += 0.5 * d.drive->armature * change * change;
+    }
+  }
   return energy;
 }
 

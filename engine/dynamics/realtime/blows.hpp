@@ -39,15 +39,16 @@ bool bounces(const SolverIsland& island);
 void note_speeds(const SolverIsland& island, double share);
 /// What the impulses since then took [J].
 double taken_by_contacts(const SolverIsland& island);
-/// As note_speeds and taken_by_contacts, of the kept rows of joints: what the other rows of an
-/// island leave to them.
+/// As note_speeds and taken_by_contacts, of joints: of kept rows what the other rows of an island
+/// leave to them, of coordinates what holds them (DriveRow::taken).
 void note_joint_speeds(const SolverIsland& island);
 double taken_by_joints(const SolverIsland& island, JointPass pass);
 
 /// Before contacts bounce, besides note_speeds and note_joint_speeds.
 void remember_velocities(const SolverIsland& island);
 void remember_relaxing(const SolverIsland& island);
-/// What a blow since then gave, by contacts and kept rows: its share s gives s linear + s^2 square.
+/// What a blow since then gave, by contacts and joints, armatures included: its share s gives s
+/// linear + s^2 square.
 struct BlowEnergy {
   double linear = 0, square = 0;  ///< [J]
   /// The share of the blow that may stay where `taken` was taken [J].

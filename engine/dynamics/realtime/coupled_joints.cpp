@@ -114,6 +114,14 @@ void set_lines(const SolverIsland& island, CoupledJoints& all) {
   }
 }
 
+/// Of the coordinates, from the factor.
+void set_compliances(const SolverIsland& island, CoupledJoints& all) {
+  for_joint_rows(island, all, [&](const JointBlock& joint, uint32_t i, uint32_t row) {
+    if (i >= joint.kept)
+      drives_of(island, joint)[i - joint.kept].mass = all.factor[row * all.count + row];
+  });
+}
+
 double& impulse_of(CouplingBlock& c, JointPass pass) {
   if (pass == JointPass::relaxing) return c.relaxing;
   return pass == JointPass::moving ? c.moving : c.correcting;
@@ -179,9 +187,14 @@ void refresh_couplings(const SolverContext& c, const SolverIsland& island, doubl
       for (uint32_t j = 0; j <= i; ++j) k(i, j) = product(island, all.lines[i], all.lines[j]);
     all.scaled.resize(all.count);
     factorise_kept(k, all.kept, all.count, all.scaled);
-    for_joint_rows(island, all, [&](JointBlock& joint, uint32_t i, uint32_t row) {
-      if (i >= joint.kept) drives_of(island, joint)[i - joint.kept].mass = k(row, row);
-    });
+    set_compliances(island, all);
+  }
+}
+
+void soften_couplings(const SolverIsland& island, double give) {
+  for (CoupledJoints& all : island.coupled) {
+    soften_kept(entries(all), all.kept, all.count, give);
+    set_compliances(island, all);
   }
 }
 
@@ -223,6 +236,10 @@ void solve_coupled(const SolverIsland& island, double hs, JointPass pass, Couple
   eliminate_kept(k, all.kept, all.count, change);
   if (all.count > all.kept) {
     all.laws.resize(all.count);
+    if (pass == JointPass::correcting)
+      leave_of_soft(
+          k, all.kept, all.count, island.joint_softness.impulse_scale,
+          [&impulses](uint32_t i) { return *impulses[i]; }, change);
     solve_laws(
         k, all.kept, all.count,
         [&drives](uint32_t i, double free) { return drives[i]->solve(free); },

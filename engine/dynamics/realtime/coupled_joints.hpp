@@ -63,6 +63,8 @@ std::vector<CoupledJoints> couple_joints(std::span<JointBlock> joints,
 void prepare_couplings(const SolverContext& context, const SolverIsland& island, double hs);
 /// After the joints' own lines.
 void refresh_couplings(const SolverContext& context, const SolverIsland& island, double hs);
+/// Once a refresh, before the bodies move: see soften_kept.
+void soften_couplings(const SolverIsland& island, double give);
 void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass);
 void solve_coupled(const SolverIsland& island, double hs, JointPass pass, CoupledJoints& coupled);
 /// Adds the pushes to the sums of the joints.

@@ -12,8 +12,10 @@ void DriveRow::put(Cause cause, double force, double gain, double least, double 
   cause_of[law.add(force, gain, least, most)] = cause;
 }
 
-void DriveRow::put_step(Cause cause, double at, double least, double most) {
-  cause_of[law.add_step(at, least, most)] = cause;
+double DriveRow::put_step(Cause cause, double at, double least, double most) {
+  const size_t part = law.add_step(at, least, most);
+  cause_of[part] = cause;
+  return law.step_at(part);
 }
 
 /// How much of a damper's impulse of the relaxing pass is implicit: with a for its strength over
@@ -41,7 +43,7 @@ void DriveRow::set_law(JointPass pass, double hs) {
   const double most = half * drive->motor.max_force;
   // What moves the bodies is their velocity in the middle of the sub-step.
   const double target = drive->motor.target_at(pass == JointPass::moving ? t + half : t + hs);
-  if (drive->motor.kind == MotorKind::velocity) put_step(motor, target, -most, most);
+  if (drive->motor.kind == MotorKind::velocity) motor_rate = put_step(motor, target, -most, most);
   if (drive->motor.kind == MotorKind::force) {
     const double force = std::clamp(half * drive->motor.target_at(t + half), -most, most);
     put(motor, force, 0, force, force);
@@ -78,10 +80,11 @@ void DriveRow::set_moving(double hs) {
 }
 
 /// The end of the sub-step at twice the present speed is beyond a limit that bounces. What a limit
-/// stops although this is not so was faster by its acceleration within the sub-step: no impact.
+/// stops although this is not so was faster by its acceleration within the sub-step: no impact. A
+/// motor of any strength would be back at the limit at once.
 bool DriveRow::may_bounce(double hs) const {
   const CoordinateLimits& l = drive->limits;
-  if (!l.hard() || l.restitution == 0) return false;
+  if (!l.hard() || l.restitution == 0 || drive->motor.holds_rate_with_any_force()) return false;
   const double end = value + curve + 2 * hs * rate;
   return end < l.lower || end > l.upper;
 }
@@ -150,8 +153,11 @@ void DriveRow::set_relaxing(double hs) {
   if (l.hard()) {
     // The speed that brought it back from beyond a limit is taken away again: what a limit does in
     // both passes together never pulls.
-    if (at_lower || value <= l.lower) put_step(lower, bounce_lower, -held_lower, no_bound);
-    if (at_upper || value >= l.upper) put_step(upper, -bounce_upper, -no_bound, -held_upper);
+    const bool below = at_lower || value <= l.lower, above = at_upper || value >= l.upper;
+    // Between two limits there is nowhere to go.
+    const double up = above ? 0 : bounce_lower, down = below ? 0 : bounce_upper;
+    if (below) put_step(lower, up, -held_lower, no_bound);
+    if (above) put_step(upper, -down, -no_bound, -held_upper);
     return;
   }
   if (at_lower) pull(lower, l.damping, 0, no_bound);
@@ -164,6 +170,18 @@ double DriveRow::solve(double free) {
   for (size_t i = 0; i < law.size(); ++i) shares[cause_of[i]] += s.parts[i];
   v = s.v;
   return s.force;
+}
+
+bool DriveRow::holds_rate() const {
+  return drive->motor.kind == MotorKind::velocity && v == motor_rate;
+}
+
+double DriveRow::taken(double first, double last) const {
+  double held = shares[friction] + drive->armature * (noted - v);
+  if (holds_rate()) held += shares[motor];
+  if (drive->limits.hard()) held += shares[lower] + shares[upper];
+  return -0.5 * held * (first + last - 2 * held_rate()) -
+         0.5 * drive->armature * (v - noted) * (v + noted - 2 * held_rate());
 }
 
 void DriveRow::add_up() {

@@ -35,9 +35,11 @@ struct DriveRow {
   double mass = 0;    ///< compliance: velocity that a unit of impulse gives
   ForceLaw law;
   std::array<uint8_t, ForceLaw::most_parts> cause_of{};
-  Shares shares{};  ///< impulses of the pass
-  double v = 0;     ///< velocity along it at the end of the pass
-  double t = 0;     ///< start of the sub-step since the tick began [s]
+  Shares shares{};        ///< impulses of the pass
+  double v = 0;           ///< velocity along it at the end of the pass
+  double t = 0;           ///< start of the sub-step since the tick began [s]
+  double motor_rate = 0;  ///< that a motor of velocity holds
+  double noted = 0;       ///< v before a pass, then before a blow
 
   // Of the moving pass, for the relaxing one.
   double moved = 0;  ///< velocity that moved the bodies
@@ -63,6 +65,13 @@ struct DriveRow {
   void end_moving(double hs, double kick);
   /// After the relaxing pass.
   void end_relaxing(double hs) { t += hs; }
+  /// The velocity that a motor holds, 0 where none does: energy of blows is that seen by who goes
+  /// along with it.
+  double held_rate() const { return holds_rate() ? motor_rate : 0; }
+  /// What holds the coordinate, and its armature, took of the motion since `noted`, where the
+  /// velocity along it went from `first` to `last`. Springs, dampers and motors of force take
+  /// nothing: they are forces.
+  double taken(double first, double last) const;
   /// Whether a limit gives back a blow in the relaxing pass.
   bool bounces() const { return bounce_lower > 0 || bounce_upper > 0; }
   /// After either pass.
@@ -74,7 +83,9 @@ struct DriveRow {
   void put_hard_limits(double hs);
   void set_relaxing(double hs);
   void put(Cause cause, double force, double gain, double least, double most);
-  void put_step(Cause cause, double at, double least, double most);
+  /// Where it is: see ForceLaw::add_step.
+  double put_step(Cause cause, double at, double least, double most);
+  bool holds_rate() const;
   double implicit_share(double hs) const;
 };
 

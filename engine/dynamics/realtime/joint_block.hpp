@@ -41,7 +41,7 @@ struct JointBlock {
   struct {
     Values moving{}, relaxing{};
   } before_blow;            ///< see remember_impulses
-  Values speeds{};          ///< of kept rows before a pass, of ticks in which something bounces
+  Values speeds{};          ///< of rows before a pass, of ticks in which something bounces
   Values before_bounces{};  ///< `relaxing` before contacts bounced
   JointPush sum;            ///< of the sub-steps so far
 

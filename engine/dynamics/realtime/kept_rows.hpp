@@ -43,6 +43,34 @@ void factorise_kept(const Matrix& k, uint32_t kept, uint32_t n, Room& scaled) {
   }
 }
 
+// Where kept rows are soft they take only 1 - `give` of their velocities away, and `give` of their
+// impulses so far (Softness::impulse_scale): as if K were larger by give / (1 - give) of itself
+// among them. The rest gets through to the other rows, which must know of it: what sweeps repeat
+// converges where each solves one and the same problem to its end.
+
+/// Once after factorise_kept: the compliance that soft kept rows leave of the others.
+template <class Matrix>
+void soften_kept(const Matrix& k, uint32_t kept, uint32_t n, double give) {
+  for (uint32_t j = kept; j < n; ++j)
+    for (uint32_t i = kept; i <= j; ++i)
+      for (uint32_t m = 0; m < kept; ++m)
+        if (k(m, m) > 0) k(j, i) += give * k(j, m) * k(i, m) / k(m, m);
+}
+
+/// After eliminate_kept: the velocities that they leave of the others. impulse(i) is that of a kept
+/// row so far.
+template <class Matrix, class Values, class Impulse>
+void leave_of_soft(const Matrix& k, uint32_t kept, uint32_t n, double give, const Impulse& impulse,
+                   Values& x) {
+  for (uint32_t m = 0; m < kept; ++m) {
+    if (!(k(m, m) > 0)) continue;
+    double own = impulse(m);
+    for (uint32_t i = m + 1; i < kept; ++i) own += k(i, m) * impulse(i);
+    const double left = give * (x[m] - own / k(m, m));
+    for (uint32_t j = kept; j < n; ++j) x[j] += k(j, m) * left;
+  }
+}
+
 /// x -= L^-1 x: velocities without what the kept rows do about theirs.
 template <class Matrix, class Values>
 void eliminate_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {

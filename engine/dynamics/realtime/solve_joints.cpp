@@ -38,8 +38,8 @@ namespace {
 using Values = JointBlock::Values;
 
 /// The entries of a joint's factor.
-auto entries(const JointBlock& joint) {
-  return [&joint](uint32_t i, uint32_t j) { return joint.factor[i][j]; };
+auto entries(JointBlock& joint) {
+  return [&joint](uint32_t i, uint32_t j) -> double& { return joint.factor[i][j]; };
 }
 
 void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& joint) {
@@ -54,8 +54,13 @@ void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& jo
     }
   }
   Values scaled;
-  factorise_kept([&joint](uint32_t i, uint32_t j) -> double& { return joint.factor[i][j]; },
-                 joint.kept, joint.count, scaled);
+  factorise_kept(entries(joint), joint.kept, joint.count, scaled);
+}
+
+/// Of the coordinates, from the factor.
+void set_compliances(const SolverIsland& island, const JointBlock& joint) {
+  for (uint32_t i = joint.kept; i < joint.count; ++i)
+    drives_of(island, joint)[i - joint.kept].mass = joint.factor[i][i];
 }
 
 /// Of impulse(row).
@@ -99,6 +104,10 @@ void solve_joint(const SolverIsland& island, double hs, JointPass pass, JointBlo
   if (joint.count > joint.kept) {
     Values of_laws;
     DriveRow* const first = &island.drives[joint.first_drive] - joint.kept;
+    if (pass == JointPass::correcting)
+      leave_of_soft(
+          entries(joint), joint.kept, joint.count, island.joint_softness.impulse_scale,
+          [&joint, pass](uint32_t i) { return joint.total(i, pass); }, change);
     solve_laws(
         entries(joint), joint.kept, joint.count,
         [first](uint32_t i, double free) { return first[i].solve(free); },
@@ -112,6 +121,18 @@ void solve_joint(const SolverIsland& island, double hs, JointPass pass, JointBlo
     joint.impulse(i, pass) += change[i];
   }
   push_joint(island, joint, push_of(joint, change));
+}
+
+/// Compliances of coordinates in the passes before the bodies move, where joints are soft.
+void soften_joints(const SolverIsland& island) {
+  const double give = island.joint_softness.impulse_scale;
+  if (give == 0 || island.drives.empty()) return;
+  for (JointBlock& joint : island.joints) {
+    if (joint.coupled) continue;
+    soften_kept(entries(joint), joint.kept, joint.count, give);
+    set_compliances(island, joint);
+  }
+  soften_couplings(island, give);
 }
 
 /// Force laws of a pass, before any impulse of it.
@@ -219,13 +240,13 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island, double h
     }
     if (joint.coupled) continue;
     set_effective_mass(island.bodies[joint.a], island.bodies[joint.b], joint);
-    for (uint32_t i = joint.kept; i < joint.count; ++i)
-      drives_of(island, joint)[i - joint.kept].mass = joint.factor[i][i];
+    set_compliances(island, joint);
   }
   refresh_couplings(c, island, hs);
 }
 
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass) {
+  if (pass == JointPass::moving) soften_joints(island);
   start_drives(island, hs, pass);
   for (JointBlock& joint : island.joints) {
     Values& impulse = pass == JointPass::moving ? joint.moving : joint.relaxing;
