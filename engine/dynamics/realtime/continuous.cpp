@@ -117,7 +117,7 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
   struct Part {
     bool fast = false;
     double least = never;  ///< unwatched() of the dynamic
-    double farthest = 0;   ///< way of the kinematic
+    double farthest = 0;   ///< way of any
   };
   std::array<Part, chunk_count> parts{};
   for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
@@ -128,13 +128,11 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
       const RigidBody& body = bodies[involved_[k]];
       if (!is_active(body)) continue;
       const double way = way_of(body, starts_[involved_[k]].pose, h);
-      if (body.dynamic()) {
-        const double least = unwatched(body);
-        part.least = std::min(part.least, least);
-        part.fast = winds(body, h) || !(way < least);
-      } else {
-        part.farthest = std::max(part.farthest, way);
-      }
+      part.farthest = std::max(part.farthest, way);
+      if (!body.dynamic()) continue;
+      const double least = unwatched(body);
+      part.least = std::min(part.least, least);
+      part.fast = winds(body, h) || !(way < least);
     }
   });
   Part all;
@@ -177,7 +175,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
   for (const uint32_t i : stale_) {
     Track& track = tracks_[i];
     const RigidBody& body = bodies[i];
-    track.fast = false;
+    track.fast = track.sweeps = false;
     if (!is_active(body)) {
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
@@ -187,10 +185,9 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     if (body.dynamic()) {
       const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
       track.fast = (body.pose.x - start.x).norm() + turn > unwatched(body);
-    } else {
-      track.fast = way_of(body, start, h) > least;
     }
-    stats.fast += track.fast;
+    track.sweeps = track.fast || way_of(body, start, h) > least;
+    stats.fast += track.sweeps;
   }
 }
 
@@ -249,9 +246,9 @@ void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
       bounds = bounds.inflated(height);
     }
     const uint32_t at = proxies_.first[slot] + s;
-    proxies_.proxies[at] = {bounds, tracks_[slot].fast};
+    proxies_.proxies[at] = {bounds, tracks_[slot].sweeps};
     proxies_.refs[at] = {slot, s};
-    (tracks_[slot].fast ? proxies_.news.moving : proxies_.news.settled).push_back(at);
+    (tracks_[slot].sweeps ? proxies_.news.moving : proxies_.news.settled).push_back(at);
   }
 }
 
@@ -313,7 +310,7 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, const J
   const auto inside = [](const RigidBody& body, bool counts) {
     return body.dynamic() && counts ? body.inner_radius : never;
   };
-  const bool neither = !(ta.fast && a.dynamic()) && !(tb.fast && b.dynamic());
+  const bool neither = !ta.fast && !tb.fast;
   const double inner =
       std::max(std::min(inside(a, ta.fast || neither), inside(b, tb.fast || neither)),
                tolerances::thin_pair_of_radius * size);

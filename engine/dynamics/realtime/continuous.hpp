@@ -20,7 +20,7 @@
 namespace tumble {
 
 struct ContinuousStats {
-  uint64_t fast = 0;     ///< bodies that moved farther than they foresee
+  uint64_t fast = 0;     ///< bodies that moved farther than they or others foresee
   uint64_t tested = 0;   ///< pairs of shapes whose time of contact was computed
   uint64_t stopped = 0;  ///< bodies that go on with what they met, or stop at it
 };
@@ -35,8 +35,8 @@ struct ContinuousMethods {
 };
 
 /// Swept detection after the solver. Bodies that moved farther in the tick, rotation included, than
-/// their contacts foresee (foresight(); thin convex ones than a fiftieth of their size), and
-/// kinematic ones that did by what others foresee, go their way only to just before the first
+/// their contacts foresee (foresight(); thin convex ones than a fiftieth of their size) or
+/// others do, kinematic ones among them, go their way only to just before the first
 /// contact that would close deeper than the solver can work off. From there on the heavy one takes
 /// the light one along, or both stop (JoinedWays). Their velocity stays, so that the next tick
 /// resolves the contact, but for thin pairs, which lose their approach.
@@ -80,7 +80,7 @@ class ContinuousStage {
   /// Whether no body can have moved farther than it foresees: what is cheap to tell.
   bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
   void note_stale(size_t bodies, bool everything);
-  /// How far a kinematic body may come without being watched [m].
+  /// How far a body may come without being watched for the sake of others [m].
   double least_unwatched(std::span<const RigidBody> bodies) const;
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   void put_proxies(const RigidBody& body, uint32_t slot);

@@ -92,8 +92,8 @@ std::vector<uint32_t> JoinedWays::meet(uint32_t a, uint32_t b, double t, bool bo
   if (takes_along(b, a)) return join(a, b, t);
   if (!gives_way(group(a).leader) && !gives_way(group(b).leader)) return squeeze(a, b, t);
   std::vector<uint32_t> stopped;
-  rest(a, tracks_[a].fast || both, t, stopped);
-  rest(b, tracks_[b].fast || both, t, stopped);
+  rest(a, tracks_[a].sweeps || both, t, stopped);
+  rest(b, tracks_[b].sweeps || both, t, stopped);
   return stopped;
 }
 

@@ -33,7 +33,7 @@ class JoinedWays {
     return place_[a] != none && place_[b] != none && met_[place_[a]].group == met_[place_[b]].group;
   }
   /// a and b meet at time t, no earlier than any before. Where neither takes the other along, the
-  /// fast ones stop, or `both`. Gives the bodies that go another way from then on.
+  /// ones that sweep stop, or `both`. Gives the bodies that go another way from then on.
   std::vector<uint32_t> meet(uint32_t a, uint32_t b, double t, bool both);
 
  private:

@@ -54,8 +54,9 @@ class Way {
 
 /// What is known of the motion of a body over a tick.
 struct Track {
-  Motion motion;      ///< its own, as the solver left it
-  bool fast = false;  ///< it went farther than what it may meet foresees
+  Motion motion;        ///< its own, as the solver left it
+  bool fast = false;    ///< it went farther than it foresees, which dynamic ones do
+  bool sweeps = false;  ///< it is fast, or went farther than another foresees
 };
 
 }  // namespace tumble
