@@ -205,7 +205,15 @@ double ContinuousStage::way_along(std::span<const RigidBody> bodies, ShapeRef re
          std::min(3.2 * sine, 2.0) * shape.shape->bounding_radius();
 }
 
+bool ContinuousStage::goes_over(std::span<const RigidBody> bodies, uint32_t body,
+                                uint32_t other) const {
+  const Track& track = tracks_[body];
+  return track.fast || (track.sweeps && bodies[other].dynamic() &&
+                        way_of(bodies[body], starts_[body].pose, h_) > unwatched(bodies[other]));
+}
+
 bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const {
+  if (!goes_over(bodies, a.body, b.body) && !goes_over(bodies, b.body, a.body)) return false;
   for (const auto& [ref, other] : {std::pair(a, b.body), std::pair(b, a.body)}) {
     const RigidBody& body = bodies[ref.body];
     if (tracks_[ref.body].fast || bodies[other].dynamic() || !is_active(bodies[other])) continue;
@@ -402,7 +410,9 @@ void ContinuousStage::join_in_order(std::span<const RigidBody> bodies, double h,
     const auto [now, i] = *events.begin();
     events.erase(events.begin());
     Candidate& c = candidates_[i];
-    const std::vector<uint32_t> changed = ways.meet(c.a.body, c.b.body, now, c.firm);
+    const std::vector<uint32_t> changed =
+        ways.meet(c.a.body, c.b.body, now, c.firm || goes_over(bodies, c.a.body, c.b.body),
+                  c.firm || goes_over(bodies, c.b.body, c.a.body));
     c.held = !changed.empty();
     // What these were to meet changes, and they can get into the way of what would have missed
     // them.

@@ -84,6 +84,8 @@ class ContinuousStage {
   double least_unwatched(std::span<const RigidBody> bodies) const;
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   void put_proxies(const RigidBody& body, uint32_t slot);
+  /// Whether a body is fast, or went farther than another foresees. Nobody else has a say in it.
+  bool goes_over(std::span<const RigidBody> bodies, uint32_t body, uint32_t other) const;
   /// How far a shape came in the frame of a kinematic body [m].
   double way_along(std::span<const RigidBody> bodies, ShapeRef ref, uint32_t kinematic) const;
   /// Whether two shapes moved relative to each other by more than their contacts foresee.

@@ -72,10 +72,10 @@ std::vector<uint32_t> JoinedWays::squeeze(uint32_t a, uint32_t b, double t) {
   return join(body, other, t);
 }
 
-/// A body, if it is fast, and all that goes with it.
-void JoinedWays::rest(uint32_t body, bool fast, double t, std::vector<uint32_t>& stopped) {
+/// A body, if it `stops`, and all that goes with it.
+void JoinedWays::rest(uint32_t body, bool stops, double t, std::vector<uint32_t>& stopped) {
   const std::vector<uint32_t>& all = group(body).members;
-  if (!gives_way(body) || (all.size() == 1 && !fast)) return;
+  if (!gives_way(body) || (all.size() == 1 && !stops)) return;
   for (const uint32_t i : all) {
     if (!way(i).moves_at(t)) continue;
     go_on(i, Motion(), t);
@@ -83,7 +83,8 @@ void JoinedWays::rest(uint32_t body, bool fast, double t, std::vector<uint32_t>&
   }
 }
 
-std::vector<uint32_t> JoinedWays::meet(uint32_t a, uint32_t b, double t, bool both) {
+std::vector<uint32_t> JoinedWays::meet(uint32_t a, uint32_t b, double t, bool stops_a,
+                                       bool stops_b) {
   enter(a);
   enter(b);
   if (together(a, b)) return {};
@@ -92,8 +93,8 @@ std::vector<uint32_t> JoinedWays::meet(uint32_t a, uint32_t b, double t, bool bo
   if (takes_along(b, a)) return join(a, b, t);
   if (!gives_way(group(a).leader) && !gives_way(group(b).leader)) return squeeze(a, b, t);
   std::vector<uint32_t> stopped;
-  rest(a, tracks_[a].sweeps || both, t, stopped);
-  rest(b, tracks_[b].sweeps || both, t, stopped);
+  rest(a, stops_a, t, stopped);
+  rest(b, stops_b, t, stopped);
   return stopped;
 }
 

@@ -32,9 +32,9 @@ class JoinedWays {
   bool together(uint32_t a, uint32_t b) const {
     return place_[a] != none && place_[b] != none && met_[place_[a]].group == met_[place_[b]].group;
   }
-  /// a and b meet at time t, no earlier than any before. Where neither takes the other along, the
-  /// ones that sweep stop, or `both`. Gives the bodies that go another way from then on.
-  std::vector<uint32_t> meet(uint32_t a, uint32_t b, double t, bool both);
+  /// a and b meet at time t, no earlier than any before. Where neither takes the other along, those
+  /// stop that are said to. Gives the bodies that go another way from then on.
+  std::vector<uint32_t> meet(uint32_t a, uint32_t b, double t, bool stops_a, bool stops_b);
 
  private:
   static constexpr uint32_t none = ~uint32_t{0};
@@ -56,7 +56,7 @@ class JoinedWays {
   void go_on(uint32_t body, const Motion& with, double t);
   std::vector<uint32_t> join(uint32_t body, uint32_t other, double t);
   std::vector<uint32_t> squeeze(uint32_t a, uint32_t b, double t);
-  void rest(uint32_t body, bool fast, double t, std::vector<uint32_t>& stopped);
+  void rest(uint32_t body, bool stops, double t, std::vector<uint32_t>& stopped);
 
   std::span<const RigidBody> bodies_;
   std::span<const Track> tracks_;
