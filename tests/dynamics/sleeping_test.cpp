@@ -261,3 +261,18 @@ TEST_CASE("a body thrown straight up does not fall asleep at the top") {
   w.run(2);
   CHECK(w.bodies[0].v.y() == doctest::Approx(0.5 - 2 * 9.81).epsilon(1e-9));
 }
+
+TEST_CASE("nothing falls asleep in free flight, however large it is or weak its weight") {
+  for (const double radius : {1.0, 1e3, 1e5}) {
+    for (const double g : {9.81, 1e-3}) {
+      RigidWorld w;
+      w.gravity = {0, -g, 0};
+      BodyDef d = body(sphere(radius), {0, 0, 0});
+      d.velocity = {0, 0.25 * g, 0};
+      w.add(d);
+      w.run(3);
+      CHECK(!w.bodies[0].asleep);
+      CHECK(w.bodies[0].v.y() == doctest::Approx(-2.75 * g).epsilon(1e-9));
+    }
+  }
+}

@@ -23,12 +23,26 @@ constexpr double along_face = 1 - 5e-9;
 constexpr double wedge = 0.02;
 
 /// One convex core (A) against the triangles of a mesh (B), query frame. `out` below is a unit
-/// direction out of the mesh; contacts take its opposite, from A to B.
+/// direction out of the mesh; contacts take its opposite, from A to B. Of an open mesh the core is
+/// on one of two sides, which then is the outer one.
 struct Query {
   PlacedCore A;
   PlacedSurface B;
   double margin;
   std::vector<FeatureContact>& contacts;
+  double side = 1;  ///< -1: of an open mesh, behind it
+
+  Vec3 face_normal(uint32_t f) const { return side * B.face_normal(f); }
+  /// Whether the surface sticks out there, or ends.
+  bool active(const MeshEdge& edge) const {
+    return edge.bend == EdgeBend::open ||
+           edge.bend == (side > 0 ? EdgeBend::convex : EdgeBend::concave);
+  }
+  bool active_vertex(uint32_t v) const {
+    const auto edges = B.s.topology.edges_of_vertex(v);
+    return std::any_of(edges.begin(), edges.end(),
+                       [this](uint32_t e) { return active(B.s.topology.edges[e]); });
+  }
 };
 
 struct TriangleView {
@@ -37,9 +51,21 @@ struct TriangleView {
   Vec3 normal;
 };
 
-TriangleView view(const PlacedSurface& B, uint32_t t) {
-  const Triangle& ids = B.s.mesh->triangles[t];
-  return {t, {B.vertex(ids[0]), B.vertex(ids[1]), B.vertex(ids[2])}, B.face_normal(t)};
+TriangleView view(const Query& q, uint32_t t) {
+  const Triangle& ids = q.B.s.mesh->triangles[t];
+  return {t, {q.B.vertex(ids[0]), q.B.vertex(ids[1]), q.B.vertex(ids[2])}, q.face_normal(t)};
+}
+
+/// The side of an open mesh that the core's centre is on, by the nearest feature.
+double side_of(const Query& q, std::span<const uint32_t> triangles) {
+  if (q.B.s.closed) return 1;
+  const Vec3 p = q.B.R.transpose() * (q.A.centre() - q.B.x);
+  const auto behind = [&](uint32_t t) {
+    return q.B.s.topology.face_normals[t].dot(p - q.B.s.mesh->corner(t, 0)) < 0;
+  };
+  if (std::none_of(triangles.begin(), triangles.end(), behind)) return 1;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  return nearest_feature(q.B.s, p, triangles, far).inside ? -1 : 1;
 }
 
 /// Whether `out` lies between the normals of the faces at an edge.
@@ -89,7 +115,10 @@ void add_points(const Query& q, const SupportingFace& feature, const Vec3& out, 
 SupportingFace face_of(const Query& q, const TriangleView& t) {
   SupportingFace f;
   // clockwise about the normal from A to B, as clip_faces wants it: counter-clockwise from outside
-  for (size_t k = 0; k < 3; ++k) f.add(t.corner[k], q.B.s.mesh->triangles[t.id][k]);
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t k = q.side > 0 ? i : 2 - i;
+    f.add(t.corner[k], q.B.s.mesh->triangles[t.id][k]);
+  }
   return f;
 }
 
@@ -123,16 +152,17 @@ void shallow(const Query& q, const TriangleView& t, const CoreContact& c) {
   const unsigned k = feature_index(feature);
   if (is_edge(feature)) {
     const uint32_t e = topology.face_edges[t.id][k];
-    if (e == no_index || !q.B.s.edge_active[e]) return;
+    if (e == no_index || !q.active(topology.edges[e])) return;
     const MeshEdge& edge = topology.edges[e];
-    if (q.B.direction(edge.normal).dot(out) <= 0 || !edge_faces(q.B, edge, out)) return;
+    if (q.side * q.B.direction(edge.normal).dot(out) <= 0 || !edge_faces(q.B, edge, out)) return;
     SupportingFace side;
     for (uint32_t v : edge.vertices) side.add(q.B.vertex(v), v);
     add_points(q, side, out, c.a, c.b, c.gap, feature_key(FeaturePair::edge_edge, 0, e));
     return;
   }
   const uint32_t v = q.B.s.mesh->triangles[t.id][k];
-  if (!q.B.s.vertex_active[v] || q.B.direction(topology.vertex_normals[v]).dot(out) <= 0) return;
+  if (!q.active_vertex(v) || q.side * q.B.direction(topology.vertex_normals[v]).dot(out) <= 0)
+    return;
   if (!vertex_faces(q.B, v, out)) return;
   const double r = q.A.core->rounding();
   q.contacts.push_back(
@@ -181,11 +211,11 @@ void sunk_ends(const Query& q, std::span<const uint32_t> triangles, double reach
     const Vec3& x = ends.points[size_t(i)];
     const Vec3 p = q.B.R.transpose() * (x - q.B.x);
     const NearestFeature near = nearest_feature(q.B.s, p, triangles, reach);
-    if (near.triangle == no_index || !near.inside) continue;
+    if (near.triangle == no_index || near.inside != (q.side > 0)) continue;
     if (near.distance > 0.5 * double(q.B.s.thickness[near.triangle]) + r) continue;
     const Vec3 way = near.distance > 1e-9 * q.B.s.size && !near.on_face
                          ? Vec3((near.point - p) / near.distance)
-                         : near.normal;
+                         : Vec3(q.side * near.normal);
     const Vec3 out = q.B.direction(way);
     const double gap = -near.distance - r;
     q.contacts.push_back({x - (r + 0.5 * gap) * out, -out, gap,
@@ -239,17 +269,18 @@ void collide_convex_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   contacts.clear(), triangles.clear(), entered.clear();
   const ConvexShape& a = *pair.a.convex();
   const MeshSurface& b = pair.b.polyhedral()->surface();
-  const Query q{PlacedCore(a, pair.pose_a.q, pair.pose_a.x),
-                {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
-                pair.margin,
-                contacts};
+  Query q{PlacedCore(a, pair.pose_a.q, pair.pose_a.x),
+          {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
+          pair.margin,
+          contacts};
   b.tree->overlap(a.bounds(pair.pose_b.inverse() * pair.pose_a).inflated(pair.margin), triangles);
   if (triangles.empty()) return;
+  q.side = side_of(q, triangles);
   bool behind = false;
   for (uint32_t id : triangles) {
     charge_work(1500);
     if (stop_requested()) return;
-    const TriangleView t = view(q.B, id);
+    const TriangleView t = view(q, id);
     if (t.normal.isZero() || beyond_plane(q, t)) continue;
     const TriangleCore core(t.corner[0], t.corner[1], t.corner[2]);
     const CoreContact c =

@@ -12,10 +12,13 @@ namespace tumble {
 namespace {
 
 /// Speed [m/s] below which a body rests. `pull` is the acceleration that holds it in place: without
-/// one only what is as good as still may sleep.
-double resting_speed(const RigidBody& body, double pull, double sleep_speed) {
+/// one only what is as good as still may sleep, with it nothing that it could be in free flight
+/// for as long as a body must rest, however large it is.
+double resting_speed(const RigidBody& body, double pull, const RealtimeSettings& settings) {
   const double r = body.bounding_radius;
-  return std::max(sleep_speed * std::sqrt(pull * r), tolerances::weightless_rest * r);
+  const double slow =
+      std::max(settings.sleep_speed * std::sqrt(pull * r), tolerances::weightless_rest * r);
+  return pull > 0 ? std::min(slow, tolerances::slow_in_flight * pull * settings.sleep_time) : slow;
 }
 
 void lay_down(RigidBody& body) {
@@ -57,7 +60,7 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
     const double pull = gravity * std::abs(body.gravity_scale);
     const bool may_rest =
         settings.sleeping && body.can_sleep && !islands.islands[island_of(k)].restless;
-    watch(body, resting_speed(body, pull, settings.sleep_speed),
+    watch(body, resting_speed(body, pull, settings),
           tolerances::averaged_of_sleep_time * settings.sleep_time, may_rest, h);
     scratch.rested[k] = body.rest.time;
   });

@@ -127,6 +127,9 @@ inline constexpr int most_rotation_steps = 64, most_rotation_steps_in_flight = 2
 
 /// Speed of rest without weight, of the body's radius a second [1/s]: as good as still.
 inline constexpr double weightless_rest = 1e-4;
+/// Speed of rest, of what a body gains in free flight while it must rest to sleep [-]: one that is
+/// thrown up is slower than that for half of the time at most.
+inline constexpr double slow_in_flight = 0.25;
 /// Time over which velocities are averaged to tell rest from motion, of the time that a group must
 /// rest before it sleeps [-]: four ticks of 1/60 s with the usual settings. Heaps tremble with
 /// periods of a few ticks; what is set in motion is seen as long before it would sleep.
@@ -168,6 +171,9 @@ inline constexpr int most_looks = 64;
 /// start [-]: they are in the solver's hands, and those that pass the middle would come out on the
 /// other side.
 inline constexpr double growing_overlap = 0.5;
+/// How deep what is carried on may be pressed into what is in its way, of the inner radius [-]: all
+/// of it is still on its way, and nothing has pushed back yet.
+inline constexpr double pressed_depth = 0.02;
 /// Share of the allowed depth that a pair closes between two looks [-]: so it is seen once before
 /// it is deeper.
 inline constexpr double look_step = 0.5;
