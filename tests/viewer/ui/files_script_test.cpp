@@ -256,7 +256,7 @@ TEST_CASE("a number of the scene is chosen at the moment that is shown, and take
                            "\"parameters\": { \"high\": 3, \"twice\": \"= 2*high\" },\n  "
                            "\"bodies\": {\n    \"ball\": { \"position\": [-2, \"$high\", 0], "
                            "\"shape\": { \"type\": \"sphere\", \"radius\": 0.3 } },"));
-  rig.play("wait 60");
+  rig.play("wait 60\nclick bar.settings\nwait 3");
   REQUIRE(rig.app->ui().find("parameters.high"));
   CHECK_FALSE(rig.app->ui().find("parameters.twice"));
   rig.delete_crate();

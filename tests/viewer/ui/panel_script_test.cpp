@@ -344,9 +344,12 @@ TEST_CASE(
   rig.picture = {1600, 900, 1};
   UiState& ui = rig.app->ui_state();
   rig.play("wait 3");
+  ui.toasts.clear();
   for (const char* title : {"one", "two", "three"}) ui.toast(ToastKind::error, title, {"a line"});
   rig.play("wait 3\nmove toast0\nwait 3");
   CHECK_FALSE(rig.app->ui().wants_pointer());
+  rig.play("move toast0.close\nwait 3");
+  CHECK(rig.app->ui().wants_pointer());
   rig.play("click toast0.close\nwait 3");
   CHECK_FALSE(says(rig, "one"));
   CHECK(says(rig, "two"));
