@@ -1,5 +1,6 @@
 #include "engine/scene/drop_in.hpp"
 
+#include "engine/scene/mesh_files/formats.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/writer.hpp"
 
@@ -87,11 +88,27 @@ std::vector<std::string> fitted_to_size(double extent) {
   return out;
 }
 
+/// Why a file of this ending opens as nothing; "": it may be a mesh.
+std::string fault_of_kind(const std::filesystem::path& file) {
+  const auto format = mesh_format_of(file);
+  if (format) return {};
+  const std::string extension = file.extension().string();
+  if (extension == ".tumble" || extension == ".zip")
+    return "this is no pack of a scene: it is no ZIP archive (`tumble pack` makes one)";
+  return "this is no scene, pack, robot or mesh: scenes end in .json, packs in .tumble, robots in "
+         ".urdf or .xml; for meshes " +
+         format.error().cure;
+}
+
 }  // namespace
 
 SceneRead drop_in_scene(const std::filesystem::path& mesh_file, const ReadOptions& options) {
-  const auto imported = import_mesh(mesh_file);
   SceneRead out;
+  if (std::string fault = fault_of_kind(mesh_file); !fault.empty()) {
+    out.faults.push_back({mesh_file.string(), 0, {}, std::move(fault)});
+    return out;
+  }
+  const auto imported = import_mesh(mesh_file);
   if (!imported) {
     Error why = imported.error();
     why.place.clear();  // the fault names the file itself

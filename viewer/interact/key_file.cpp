@@ -138,8 +138,19 @@ std::vector<Binding> read_key_file(std::string_view text, std::vector<std::strin
   Json json;
   try {
     json = Json::parse(text, nullptr, true, true);
-  } catch (const Json::exception& e) {
-    faults.push_back(fmt::format("not JSON: {}", e.what()));
+  } catch (const Json::parse_error& e) {
+    // The byte that it stopped at, counted from 1.
+    const std::string_view read =
+        text.substr(0, std::min(e.byte > 0 ? e.byte - 1 : 0, text.size()));
+    const auto line = std::ranges::count(read, '\n') + 1;
+    const size_t column = read.size() - (read.rfind('\n') + 1) + 1;
+    faults.push_back(fmt::format(
+        "line {}, column {}: this is not JSON, a comma, a quote or a bracket may be missing or one "
+        "too many. The usual keys hold",
+        line, column));
+    return all;
+  } catch (const Json::exception&) {
+    faults.push_back("a number in it is too large. The usual keys hold");
     return all;
   }
   if (!json.is_object()) {

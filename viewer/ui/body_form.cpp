@@ -6,7 +6,9 @@
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -23,11 +25,29 @@ Group group_of(std::string_view name) {
   return name == "colour" ? Group::look : Group::body;
 }
 
+/// A body of which the scene's file describes several at once.
+bool is_copy(const BodyDef& def) {
+  return def.name.ends_with(']');
+}
+
+/// What the file says once for all copies: one alone cannot have another.
+bool is_of_all_copies(std::string_view name) {
+  constexpr std::string_view common[] = {"group", "can_sleep", "precise", "hull_mass", "inertia"};
+  return std::ranges::find(common, name) != std::end(common);
+}
+
+void say_it_is_of_all_copies(PanelContext& context, const BodyDef& def) {
+  const std::string base = def.name.substr(0, def.name.find('['));
+  small_text(context, fmt::format("What is grey is common to all copies of {}", base),
+             palette::faint);
+}
+
 /// The values of one group. Shapes have their own widgets; what only files know is left out.
 class BodyWidgets : public ParameterWidgets {
  public:
-  BodyWidgets(PanelContext& context, std::string prefix, Group group)
-      : ParameterWidgets(context, std::move(prefix)), group_(group) {}
+  BodyWidgets(PanelContext& context, std::string prefix, Group group, bool copy)
+      : ParameterWidgets(context, std::move(prefix)), group_(group), copy_(copy) {}
+  bool any_common = false;  ///< some stand there that are common to all copies
 
   template <class T>
   void field(T& value, const Parameter& p) {
@@ -35,7 +55,13 @@ class BodyWidgets : public ParameterWidgets {
                          p.name == "volumes" || p.name == "volumes_level";
     const Group group = in_look_ ? Group::look : group_of(p.name);
     if constexpr (requires { ParameterWidgets::field(value, p); })
-      if (!of_file && group == group_) ParameterWidgets::field(value, p);
+      if (!of_file && group == group_) {
+        const bool common = copy_ && (in_look_ || is_of_all_copies(p.name));
+        any_common = any_common || common;
+        ImGui::BeginDisabled(common);
+        ParameterWidgets::field(value, p);
+        ImGui::EndDisabled();
+      }
   }
   void field(std::optional<Quat>&, const Parameter&) {}  // angles are what people read
   template <class T>
@@ -56,6 +82,7 @@ class BodyWidgets : public ParameterWidgets {
 
  private:
   Group group_;
+  bool copy_;
   bool in_look_ = false;
 };
 
@@ -93,8 +120,9 @@ void draw_body_values(PanelContext& context, const BodyFrame& body, const BodyIn
     const bool open = ImGui::CollapsingHeader(title);
     context.host.mark(fmt::format("inspector.group.{}", int(group)));
     if (!open) continue;
-    BodyWidgets widgets(context, "inspector", group);
+    BodyWidgets widgets(context, "inspector", group, is_copy(def));
     BodyDescription::parameters(widgets, now);
+    if (widgets.any_common) say_it_is_of_all_copies(context, def);
     if (widgets.changed)
       context.ask(EditBody{body.id, deed(context, def, widgets.edited),
                            [before, now](BodyDef& d) { apply_changes(before, now, d); }});
@@ -128,7 +156,11 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
     context.ask(
         EditBody{context.model.selected, deed(context, def, widgets.edited), std::move(change)});
   };
-  if (shape_numbers(widgets, part.shape)) {
+  ImGui::BeginDisabled(is_copy(def));
+  const bool shape_changed = shape_numbers(widgets, part.shape);
+  ImGui::EndDisabled();
+  if (is_copy(def)) say_it_is_of_all_copies(context, def);
+  if (shape_changed) {
     // A mass that was only ever the shapes' follows them.
     ask([index, shape = part.shape](BodyDef& d) {
       if (index < d.shapes.size()) d.shapes[index].shape = shape;

@@ -118,6 +118,22 @@ std::vector<Quantity> quantities_of_sensors(const Frame& frame) {
   return out;
 }
 
+std::optional<Quantity> quantity_of_name(const Frame& frame, const std::string& name) {
+  const auto in = [&](std::vector<Quantity> list) -> std::optional<Quantity> {
+    const auto found = std::ranges::find(list, name, &Quantity::name);
+    return found == list.end() ? std::nullopt : std::optional(std::move(*found));
+  };
+  const std::string owner = name.substr(0, name.rfind(": "));
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+    if (!frame.body(slot).id.is_null() && frame.info(slot).name == owner)
+      return in(quantities_of(frame, frame.body(slot).id));
+  if (frame.joints)
+    for (const JointFrame& joint : *frame.joints)
+      if (joint.name == owner)
+        return in(quantities_of(frame, joint.b.is_null() ? joint.a : joint.b));
+  return in(quantities_of_sensors(frame));
+}
+
 void Measures::add(Quantity quantity, const Frame& now) {
   const bool there = std::ranges::any_of(
       series_, [&](const Series& s) { return s.quantity.name == quantity.name; });

@@ -22,6 +22,9 @@ std::vector<Quantity> quantities_of(const Frame& frame, BodyId body);
 /// What the sensors of the scene say.
 std::vector<Quantity> quantities_of_sensors(const Frame& frame);
 
+/// That of one of the two lists which has this name; nothing when there is none.
+std::optional<Quantity> quantity_of_name(const Frame& frame, const std::string& name);
+
 /// Quantities that a person watches, each with its recent past: a value a published tick. Going
 /// back in time keeps what lies ahead, as the line of time does, until that will not come any more.
 class Measures {

@@ -27,6 +27,13 @@ std::string fault_of(const Vec3& v, const Parameter& p) {
   return {};
 }
 
+/// What a number says: -0 no more than 0, and in an angle what is left of its computation nothing.
+double shown_number(double v, const Parameter& p) {
+  constexpr double rounding = 1e-9;  // [deg]
+  const bool angle = p.name.ends_with("_deg") || p.unit == "deg";
+  return angle && std::abs(v) < rounding ? 0.0 : v + 0.0;
+}
+
 /// For how long it is said why a value was not taken [s].
 constexpr double fault_seconds = 6;
 
@@ -37,6 +44,7 @@ constexpr float label_share = 0.56f;
 
 std::string label_of(std::string_view name) {
   if (name == "tick_hz") return "tick rate";
+  if (name == "sleep_speed") return "sleep speed / sqrt(g r)";
   if (name == "euler_deg") return "turned about x, y, z";
   if (name.ends_with("_deg")) name.remove_suffix(4);
   std::string label(name);
@@ -82,7 +90,7 @@ std::string unit_words(std::string_view unit) {
 
 void ParameterWidgets::field(double& value, const Parameter& p) {
   begin(p);
-  double v = value + 0.0;  // -0 says no more than 0
+  double v = shown_number(value, p);
   const float speed = float(std::max(std::abs(v) * 0.01, 1e-3));
   const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", unit_words(p.unit));
   if (ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr, nullptr, format.c_str()) &&
@@ -107,7 +115,7 @@ void ParameterWidgets::field(bool& value, const Parameter& p) {
 
 void ParameterWidgets::field(Vec3& value, const Parameter& p) {
   begin(p, true);
-  Vec3 v = value + Vec3::Zero();  // -0 says no more than 0
+  Vec3 v(shown_number(value.x(), p), shown_number(value.y(), p), shown_number(value.z(), p));
   const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
   if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
                          "%.4g") &&

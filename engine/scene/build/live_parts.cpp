@@ -264,7 +264,8 @@ std::string LiveParts::new_force_name(const SceneDescription& parts,
 
 void LiveParts::know(const std::string& name, ForceId id) {
   std::vector<ForceId>& known = forces_[name];
-  if (std::ranges::find(known, id) == known.end()) known.push_back(id);
+  std::erase(known, id);
+  known.push_back(id);  // the newest is asked for first
 }
 
 EmitterId LiveParts::emitter(const World& world, const std::string& name) const {

@@ -204,8 +204,10 @@ bool FileChanges::change_mode(const ChangedBody& c, const BodyName& name, const 
 void FileChanges::keep_what_copies_have(const std::string& name, const Json& before, Json& after) {
   for (const char* key : {"group", "can_sleep", "precise", "hull_mass", "inertia", "look"})
     if (after.contains(key) && before.contains(key) && after[key] != before[key]) {
+      std::string words = key;
+      std::ranges::replace(words, '_', ' ');
       left_out.push_back(fmt::format(
-          "{}: {} is common to all copies, so that one cannot have its own", name, key));
+          "{}: {} is common to all copies, so that one cannot have its own", name, words));
       after[key] = before[key];
     }
 }

@@ -102,6 +102,9 @@ TEST_CASE("a pack stands for its scene in every command, with a replay that hold
   CHECK(tumble_program({"pack", "hello", (folder / "nowhere/a.tumble").string()}, home).code == 5);
   CHECK(tumble_program({"pack", (folder / "none.json").string(), pack, "--force"}, home).code == 3);
   CHECK(tumble_program({"pack", "hello"}, home).code == 2);
+  // The name may come in either way, so that neither of the two is what one must give.
+  const std::string help = tumble_program({"pack", "--help"}, home).out;
+  CHECK(help.find("REQUIRED") == help.rfind("REQUIRED"));
   write_text(replay, "no replay");
   CHECK(tumble_program({"pack", "hello", pack, "--force", "--replay", replay}, home).code == 3);
   // One that ends early.

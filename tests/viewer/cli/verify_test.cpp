@@ -77,3 +77,18 @@ TEST_CASE("verify refuses what it cannot compare") {
   CHECK(tumble_program({"verify", (folder / "none.json").string()}).code == 3);
   CHECK(tumble_program({"verify", scene, "--csv", "/nowhere/x.csv"}).code == 5);
 }
+
+TEST_CASE(
+    "a fault of one side's option names that option, and a body of one side has no distance") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  for (const std::string option : {"--a", "--b", "--set"}) {
+    const ProgramRun run = tumble_program({"verify", scene, option, "bodies.nobody.mass=3"});
+    CHECK(run.code == 2);
+    CHECK_MESSAGE(mentions(run.err, option + ": bodies.nobody"), run.err);
+  }
+  const ProgramRun alone = tumble_program({"verify", scene, "--b", "bodies.ball.present=false"});
+  CHECK(alone.code == 1);
+  CHECK_MESSAGE(mentions(alone.out, "ball, which only one of the two worlds has"), alone.out);
+  CHECK_FALSE(mentions(alone.out, "inf"));
+}

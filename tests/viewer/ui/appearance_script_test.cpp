@@ -72,6 +72,10 @@ TEST_CASE("what is wrong in a file of keys is said, and the rest holds") {
   // What wished for a key that is taken keeps its usual one.
   CHECK_FALSE(shortcut_of(Action::frame_all).empty());
   CHECK_FALSE(shortcut_of(Action::slower).empty());
+  const OwnBindings torn("{\n  \"undo\": \"U\",\n  \"redo\" \"Y\"\n}");
+  REQUIRE(torn.faults.size() == 1);
+  CHECK(torn.faults[0].starts_with("line 3, column 12: this is not JSON"));
+  CHECK(torn.faults[0].find("json.exception") == std::string::npos);
   for (const char* bad : {"", "[]", "{\"a\"", "3"}) {
     const OwnBindings none(bad);
     CHECK(none.faults.size() == 1);

@@ -210,3 +210,56 @@ TEST_CASE("who clicks twice on one place builds one body there, and stays where 
   CHECK(built("sphere_2"));
   check_no_faults(*b.device);
 }
+
+TEST_CASE("a new scene in which joints, springs and sources were built begins with them after R") {
+  Laboratory b;
+  b.body("box", "box");
+  b.play("click inspector.group.0\nwait 3");
+  b.set("inspector.position", Vec3(0, 2, 0));
+  b.play("click build.revolute\nwait 2\nclick body:box\nwait 2\nclick " + b.at({0, 3.5, 0}) +
+         "\nwait 4\nkey Esc\nwait 2");
+  b.play("click build.spring\nwait 2\nclick body:box\nwait 2\nclick " + b.at({1, 3.5, 0}) +
+         "\nwait 4\nkey Esc\nwait 2");
+  const auto built = b.world().frame();
+  REQUIRE(built->joints->size() == 1);
+  REQUIRE(built->forces.size() == 1);
+  const uint64_t before = b.hash();
+  b.play("key Space\nwait 30\nkey Space\nwait 3");
+  REQUIRE(b.hash() != before);
+  b.play("key R\nwait 3");
+  CHECK(b.hash() == before);
+  // The same world as the saved file makes, and the next box has a name of its own.
+  b.save();
+  CHECK(b.content().find("\"spring\"") != std::string::npos);
+  b.play("key R\nwait 3");
+  CHECK(b.hash() == before);
+  b.body("box", "box_2");
+  CHECK(saved_scene(b).bodies.names() == std::vector<std::string>{"ground", "box", "box_2"});
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("what the file says once for all copies cannot be changed in the panel of one of them") {
+  Laboratory b;
+  const std::string text = R"({
+  "tumble_scene": 1,
+  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" } },
+    "row": { "shape": { "type": "box", "size": [1, 1, 1] }, "position": [0, 0.5, 0],
+             "repeat": { "type": "grid", "count": [2, 1, 1], "spacing": [3, 1, 1] } }
+  },
+  "cameras": { "main": { "position": [0, 2.5, 9], "target": [0, 1.5, 0] } }
+}
+)";
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3\nkey B\nclick body:row[1]\nwait 3\nclick inspector.group.1\nwait 3");
+  const BodyId id = b.world().find_body("row[1]");
+  REQUIRE(b.rig.app->selected() == id);
+  REQUIRE(b.world().body(id)->can_sleep);
+  b.play("click inspector.can_sleep\nwait 3");
+  CHECK(b.world().body(id)->can_sleep);
+  // What each has for itself can.
+  b.set("inspector.mass", "77");
+  CHECK(b.world().body(id)->mass == doctest::Approx(77));
+  check_no_faults(*b.device);
+}

@@ -1,6 +1,7 @@
 // Reference: the files themselves, written and read by the test.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/laboratory.hpp"
+#include "viewer/app/editing/unsaved_work.hpp"
 #include "viewer/app/window/file_watch.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -152,6 +153,14 @@ TEST_CASE("what was changed here is done to the new text too") {
   CHECK(says(rig, "with what was changed here"));
   CHECK(rig.app->session().world().find_body("crate").is_null());
   CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
+  // What was done before the file changed is taken back in the new text, and done again.
+  rig.play("key Ctrl+Z\nwait 6");
+  CHECK(says(rig, "Taken back: Delete crate"));
+  CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(2));
+  CHECK_FALSE(rig.app->ui().find("question.take_up"));
+  rig.play("key Ctrl+Y\nwait 6");
+  CHECK(rig.app->session().world().find_body("crate").is_null());
   // Saved, it holds both.
   rig.play("key Ctrl+S\nwait 3\nkey Ctrl+S\nwait 60");
   const std::string saved = *read_file(rig.file);
@@ -190,6 +199,146 @@ TEST_CASE("work that was not saved is there after the program was killed") {
   CHECK(std::filesystem::is_empty(rig.unsaved()));
   rig.play("key Ctrl+Q\nwait 3");
   CHECK(rig.app->quit_requested());
+  check_no_faults(*device);
+}
+
+TEST_CASE("two windows on one file keep their unsaved work apart until one of them is gone") {
+  const TempFolder folder;
+  const auto scene = folder.path() / "scene.json";
+  const auto file = [&](const char* text) {
+    SceneFile out;
+    out.path = out.read_from = scene;
+    out.text = text;
+    out.on_disk = "saved";
+    return out;
+  };
+  auto first = std::make_unique<UnsavedWork>(folder.path() / "unsaved");
+  UnsavedWork second(folder.path() / "unsaved");
+  first->open(file("of the first"), false);
+  second.open(file("saved"), false);
+  CHECK_FALSE(second.kept().has_value());  // its window is there
+  second.open(file("of the second"), false);
+  const auto count = [&] {
+    size_t n = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "unsaved"))
+      n += entry.path().extension() == ".json";
+    return n;
+  };
+  CHECK(count() == 2);
+  // Saved by one, that of the other stays.
+  second.saved(file("of the second"));
+  CHECK(count() == 1);
+  first.reset();  // as a crash leaves it
+  second.open(file("saved"), false);
+  const auto left = second.kept();
+  REQUIRE(left.has_value());
+  CHECK(left->text == "of the first");
+  CHECK_FALSE(left->own);
+  second.take_over(*left);
+  UnsavedWork third(folder.path() / "unsaved");
+  third.open(file("saved"), false);
+  CHECK_FALSE(third.kept().has_value());
+  // Who goes on with it keeps it there, and who comes back to it hears that it is their own.
+  second.open(file("of the first, and more"), true);
+  CHECK(count() == 1);
+  second.open(file("saved"), false);
+  REQUIRE(second.kept().has_value());
+  CHECK(second.kept()->own);
+  second.throw_away(second.kept()->file);
+  CHECK(std::filesystem::is_empty(folder.path() / "unsaved"));
+}
+
+TEST_CASE("a number of the scene is chosen at the moment that is shown, and taken back there") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.picture = {1600, 900, 1};
+  write(rig.file, replaced(std::string(two_bodies), "\"bodies\": {",
+                           "\"parameters\": { \"high\": 3, \"twice\": \"= 2*high\" },\n  "
+                           "\"bodies\": {\n    \"ball\": { \"position\": [-2, \"$high\", 0], "
+                           "\"shape\": { \"type\": \"sphere\", \"radius\": 0.3 } },"));
+  rig.play("wait 60\nclick bar.settings\nwait 3");
+  REQUIRE(rig.app->ui().find("parameters.high"));
+  CHECK_FALSE(rig.app->ui().find("parameters.twice"));
+  rig.delete_crate();
+  rig.play("wait 80\nkey Shift+.\nwait 3");
+  const uint64_t tick = rig.tick();
+  REQUIRE(tick >= 10);
+  rig.app->ask(ChangeParameter{"high", 5});
+  rig.play("wait 6");
+  CHECK(rig.tick() == tick);
+  CHECK(def_of(rig, "ball").pose.x.y() > 3);
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  rig.play("key Shift+.\nwait 3\nkey Ctrl+Z\nwait 6");
+  CHECK(says(rig, "Taken back: Change high"));
+  CHECK(rig.tick() == tick);
+  CHECK(def_of(rig, "ball").pose.x.y() < 3);
+  rig.play("key Ctrl+Z\nwait 6");
+  CHECK(says(rig, "Taken back: Delete crate"));
+  CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
+  // Nobody was away: nothing is offered that was taken back just now.
+  CHECK_FALSE(rig.app->ui().find("question.take_up"));
+  CHECK(std::filesystem::is_empty(rig.unsaved()));
+  check_no_faults(*device);
+}
+
+TEST_CASE("who comes back to a scene is offered what was left there, in true words") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.delete_crate();
+  rig.app->open("second");
+  rig.play("wait 6");
+  CHECK_FALSE(rig.app->ui().find("question.take_up"));
+  rig.app->open(rig.file.string());
+  rig.play("wait 6");
+  REQUIRE(rig.app->ui().find("question.take_up"));
+  rig.play("click question.take_up\nwait 6");
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  // Taken back as a whole.
+  rig.play("key Ctrl+Z\nwait 6");
+  CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
+  CHECK_FALSE(rig.app->ui().find("question.take_up"));
+  check_no_faults(*device);
+}
+
+TEST_CASE("opened anew a scene is looked at as before: camera, selection and curves") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  const std::string text =
+      replaced(replaced(std::string(two_bodies), "[0, 0.5, 0]", "[0, 5, 0]"),
+               "\"target\": [1, 1, 0]", "\"target\": [1, 1, 0], \"follow\": \"crate\"");
+  write(rig.file, text);
+  rig.play("wait 60\nkey Shift+.\nkey Shift+.\nkey Shift+.\nwait 3\nclick body:crate\nwait 3");
+  World& world = rig.app->session().world();
+  REQUIRE(rig.app->selected() == world.find_body("crate"));
+  rig.app->ask(AddCurve{quantities_of(*rig.app->view().to, rig.app->selected())[1]});
+  rig.play("wait 60");
+  const Vec3 eye = rig.app->camera().camera().eye;
+  const uint64_t tick = rig.tick();
+  CHECK(eye.y() < 1.9);  // has gone along
+  write(rig.file, replaced(text, "[3, 0.5, 0]", "[2, 0.5, 0]"));
+  rig.play("wait 60");
+  REQUIRE(says(rig, "opened anew"));
+  CHECK(rig.tick() == tick);
+  CHECK((rig.app->camera().camera().eye - eye).norm() < 1e-6);
+  World& now = rig.app->session().world();
+  CHECK(rig.app->selected() == now.find_body("crate"));
+  REQUIRE(rig.app->measures().series().size() == 1);
+  CHECK(rig.app->measures().series()[0].quantity.name == "crate: height");
+  CHECK(rig.app->measures().series()[0].quantity.read(*rig.app->view().to) ==
+        now.body(now.find_body("crate"))->pose.x.y());
+  check_no_faults(*device);
+}
+
+TEST_CASE("a file that was deleted is missed, and saving writes it anew") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  std::filesystem::remove(rig.file);
+  rig.play("wait 120");
+  CHECK(says(rig, "The scene's file is gone"));
+  rig.app->ui_state().toast(ToastKind::error, "'my_scene.json' cannot be opened");
+  rig.play("key Ctrl+S\nwait 3\nclick save.file\nwait 2\nkey Enter\nwait 60");
+  CHECK(std::filesystem::exists(rig.file));
+  CHECK_FALSE(says(rig, "cannot be opened"));
   check_no_faults(*device);
 }
 

@@ -79,8 +79,11 @@ TEST_CASE("pages turn by buttons, keys and dots, and bring camera, overlays and 
   rig.play("key L\nwait 3");
   CHECK_FALSE(rig.app->ui_state().shows(PanelId::lesson));
   // Keys that are typed as an answer are no commands, and a scene without lesson has none.
+  rig.play("key L\nkey PageUp\nkey PageUp\nwait 3");
+  REQUIRE(rig.app->ui_state().overlays.aabbs);
   rig.app->open("second");
   rig.play("wait 3\nkey L\nwait 3");
+  CHECK_FALSE(rig.app->ui_state().overlays.aabbs);
   CHECK_FALSE(rig.app->ui_state().shows(PanelId::lesson));
   CHECK_FALSE(rig.app->ui().find("bar.lesson"));
   check_no_faults(*device);
@@ -187,8 +190,9 @@ TEST_CASE("curves of a page outlive its choice and pages that plot nothing") {
   rig.play("click lesson.page.2\nwait 3");
   CHECK(series.size() == 2);
   rig.play("click lesson.choose\nwait 5");
-  REQUIRE(series.size() == 1);
+  REQUIRE(series.size() == 2);  // that of the page, and the person's own
   CHECK(series[0].quantity.name == "bodies.ball.speed");
+  CHECK(series[1].quantity.name == "bodies.ball.position.y");
   CHECK(rig.app->ui_state().shows(PanelId::measure));
   check_no_faults(*device);
 }

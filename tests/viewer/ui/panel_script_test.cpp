@@ -309,3 +309,51 @@ TEST_CASE("a panel that is too long has a scrollbar at its edge, which can be dr
   rig.play("drag " + std::to_string(x) + "," + std::to_string(y + 300) + " 0 -320\nwait 3");
   CHECK(rig.app->ui().find("settings.tick_hz"));
 }
+
+TEST_CASE("an open dialog takes the keys: nothing happens to the world behind it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1600, 900, 1};
+  rig.play("wait 5\nkey Space\nclick body:box\nwait 3");
+  const UiState& ui = rig.app->ui_state();
+  const uint64_t tick = rig.tick();
+  REQUIRE(tick > 0);
+  const World& world = rig.app->session().world();
+  for (const char* open : {"key F1", "key Ctrl+S"}) {
+    rig.play(std::string(open) + "\nwait 3\nkey Del\nkey R\nkey E\nkey B\nkey Space\nwait 3");
+    CHECK(rig.tick() == tick);
+    CHECK_FALSE(world.find_body("box").is_null());
+    CHECK(rig.app->session().paused());
+    CHECK_FALSE(ui.shows(PanelId::energy));
+    CHECK_FALSE(ui.shows(PanelId::build));
+    rig.play("key Esc\nwait 3");
+    CHECK_FALSE(ui.shows(PanelId::help));
+    CHECK_FALSE(ui.shows(PanelId::save));
+  }
+  rig.play("key F1\nwait 3\nkey F1\nwait 3");
+  CHECK_FALSE(ui.shows(PanelId::help));
+  rig.play("key R\nwait 3");
+  CHECK(rig.tick() == 0);
+  check_no_faults(*device);
+}
+
+TEST_CASE(
+    "a click goes through a message of a fault but for its cross, and Esc closes all of them") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1600, 900, 1};
+  UiState& ui = rig.app->ui_state();
+  rig.play("wait 3");
+  ui.toasts.clear();
+  for (const char* title : {"one", "two", "three"}) ui.toast(ToastKind::error, title, {"a line"});
+  rig.play("wait 3\nmove toast0\nwait 3");
+  CHECK_FALSE(rig.app->ui().wants_pointer());
+  rig.play("move toast0.close\nwait 3");
+  CHECK(rig.app->ui().wants_pointer());
+  rig.play("click toast0.close\nwait 3");
+  CHECK_FALSE(says(rig, "one"));
+  CHECK(says(rig, "two"));
+  rig.play("key Esc\nwait 3");
+  CHECK_FALSE(says(rig, "two"));
+  CHECK_FALSE(says(rig, "three"));
+}

@@ -107,6 +107,7 @@ TEST_CASE("what was changed in a pause is there when one comes back to it") {
   CHECK(rig.height("box") == -1);
   rig.play("key ,\nwait 2");
   CHECK(rig.height("box") > 0);
+  // What was deleted is no part of the scene any more, as saving would write it.
   rig.play("key R\nwait 2");
-  CHECK(rig.height("box") > 0);
+  CHECK(rig.app->session().world().find_body("box").is_null());
 }

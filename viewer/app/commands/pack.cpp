@@ -19,6 +19,12 @@ struct PackLine {
 };
 
 int run_pack(const PackLine& line) {
+  if (line.file.empty())
+    return report({ErrorCode::invalid_argument,
+                   "the name of the pack is missing",
+                   {},
+                   "`tumble pack my_scene.json my.tumble`"},
+                  exit_usage);
   if (std::error_code none; !line.force && std::filesystem::exists(line.file, none))
     return report({ErrorCode::io, "the file is there already", line.file,
                    "--force overwrites it, or name another"},
@@ -57,7 +63,8 @@ CommandAction declare_pack(Options& options) {
   auto line = std::make_shared<PackLine>();
   options.value("scene", line->scene, "scene, robot or mesh file, or a name of `tumble scenes`")
       .required();
-  options.value("file,-o,--output", line->file, "the pack to write, e.g. my.tumble").required();
+  options.value("file,-o,--output", line->file,
+                "the pack to write, e.g. my.tumble; needed, in either way");
   options.value("--replay", line->replay,
                 "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
                 "window by Ctrl+F9; it is run first");

@@ -26,15 +26,27 @@ struct VerifyLine {
   bool json = false;
 };
 
+/// The error names the option that a fault came by.
+Error of_option(Error error, std::string_view option) {
+  constexpr std::string_view any = "--set";
+  for (std::string* text : {&error.place, &error.message})
+    for (size_t at = 0; (at = text->find(any, at)) != std::string::npos; at += option.size())
+      text->replace(at, any.size(), option);
+  return error;
+}
+
 Result<LoadedScene> load_side(const VerifyLine& line, const std::vector<std::string>& own,
-                              int threads) {
+                              std::string_view option, int threads) {
   SceneRequest request;
   request.scene = line.scene;
   request.overrides = line.common;
+  const bool common_is_fine = own.empty() || read_scene_request(request).ok();
   request.overrides.insert(request.overrides.end(), own.begin(), own.end());
   request.threads = threads;
   request.log = stderr_log(LogLevel::warning);
-  return load_scene_and_world(request);
+  auto loaded = load_scene_and_world(request);
+  if (!loaded && !own.empty() && common_is_fine) return of_option(loaded.error(), option);
+  return loaded;
 }
 
 /// What is looked for, and what was found.
@@ -66,6 +78,12 @@ nlohmann::ordered_json divergence_json(const Divergence& d) {
           {"same_bits", d.same_bits}, {"what", d.what}};
 }
 
+/// What only one of the two worlds has is nowhere in the other.
+std::string apart_words(double distance) {
+  return std::isfinite(distance) ? fmt::format("by {:.3g} m", distance)
+                                 : std::string("which only one of the two worlds has");
+}
+
 void print_result(const Comparison& found, bool json) {
   if (json) {
     nlohmann::ordered_json out = {{"agrees", !found.first},
@@ -88,20 +106,20 @@ void print_result(const Comparison& found, bool json) {
   }
   const Divergence& d = *found.first;
   fmt::print("A and B differ from {} s on (tick {} of A, {} of B)\n", d.time, d.tick_a, d.tick_b);
-  if (!d.what.empty()) fmt::print("first: {}, by {:.3g} m\n", d.what, d.distance);
+  if (!d.what.empty()) fmt::print("first: {}, {}\n", d.what, apart_words(d.distance));
   if (d.angle > 0 || d.speed > 0)
     fmt::print("       bodies by {:.3g} rad, velocities by {:.3g} m/s\n", d.angle, d.speed);
-  fmt::print("worst: {} at {} s, by {:.3g} m\n", found.worst.what, found.worst.time,
-             found.worst.distance);
+  fmt::print("worst: {} at {} s, {}\n", found.worst.what, found.worst.time,
+             apart_words(found.worst.distance));
 }
 
 int run_verify(const VerifyLine& line) {
   if (!(line.seconds >= 0) || !std::isfinite(line.seconds) || !(line.tolerance >= 0))
     return report({ErrorCode::invalid_argument, "a time or tolerance below zero", {}, {}},
                   exit_usage);
-  const auto a = load_side(line, line.a, line.threads_a);
+  const auto a = load_side(line, line.a, "--a", line.threads_a);
   if (!a) return report(a.error(), exit_code_of_scene(a.error()));
-  const auto b = load_side(line, line.b, line.threads_b);
+  const auto b = load_side(line, line.b, "--b", line.threads_b);
   if (!b) return report(b.error(), exit_code_of_scene(b.error()));
   const StopSignal stop;
   FileWriter csv(line.csv);

@@ -28,6 +28,10 @@ struct Fold {
 
 }  // namespace
 
+void fold_part(SceneDescription& parts, const SceneEdit& edit) {
+  std::visit(Fold{parts}, edit);
+}
+
 void PartsDesk::open(std::shared_ptr<const SceneDescription> parts,
                      std::shared_ptr<LiveParts> live) {
   *this = PartsDesk{};
@@ -41,7 +45,7 @@ void PartsDesk::update(Session& session, const std::vector<DeedEdits>& deeds) {
     if (collected_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     auto folded = std::make_shared<SceneDescription>(*opened_);
     for (const SceneEdit& edit : collected_.get()) {
-      std::visit(Fold{*folded}, edit);
+      fold_part(*folded, edit);
       if (const auto* spring = std::get_if<AddedSpring>(&edit))
         session.post(
             [live = live_, name = spring->name, id = spring->id](World&) { live->know(name, id); });

@@ -9,6 +9,9 @@
 
 namespace tumble {
 
+/// Carries out in a list of parts what an edit changes about it.
+void fold_part(SceneDescription& parts, const SceneEdit& edit);
+
 /// The emitters, sensors, forces and particles of the scene as its file would describe them now:
 /// those it was opened with, and what deeds that hold have done since.
 class PartsDesk {
@@ -25,6 +28,7 @@ class PartsDesk {
   void expect(const std::string& name, const PartDescription& part, bool gone = false);
 
   const std::shared_ptr<const SceneDescription>& parts() const { return now_; }
+  const std::shared_ptr<const SceneDescription>& opened() const { return opened_; }
   const std::shared_ptr<LiveParts>& live() const { return live_; }
 
  private:

@@ -23,6 +23,14 @@ constexpr std::chrono::milliseconds patience(500);
 /// So many new scenes of one folder are told apart.
 constexpr int most_unnamed = 1000;
 
+/// So many windows that show one scene keep their work apart from each other.
+constexpr int most_windows = 8;
+
+fs::path lock_of(const fs::path& kept) {
+  fs::path lock = kept;
+  return lock.replace_extension(".lock");
+}
+
 uint64_t hash_of(const std::string& text) {
   return hash_bytes(text.data(), text.size());
 }
@@ -51,35 +59,85 @@ fs::path unnamed_scene(int n) {
   return here / (n == 1 ? std::string("untitled.json") : fmt::format("untitled_{}.json", n));
 }
 
-void UnsavedWork::open(const SceneFile& file) {
+void UnsavedWork::open(const SceneFile& file, bool goes_on) {
+  auto held = std::move(held_);
   *this = UnsavedWork(folder_);
+  held_ = std::move(held);
   file_ = file;
   text_ = file.text;
   any_ = file.text != file.on_disk;
   choose_file();
+  if (any_ || goes_on) keep();
 }
 
+/// The one that this run keeps the scene's work in already.
 void UnsavedWork::choose_file() {
+  keep_in_.clear();
   if (folder_.empty() || file_.text.empty()) return;
-  keep_in_ = kept_file_of(file_.path);
+  for (int place = 1; place <= most_windows; ++place)
+    if (const fs::path file = kept_file_of(file_.path, place); held_.contains(file))
+      keep_in_ = file;
 }
 
-fs::path UnsavedWork::kept_file_of(const fs::path& scene) const {
-  return folder_ / fmt::format("{}-{:016x}.json", scene.stem().string(), hash_of(scene.string()));
+/// One in which nobody else keeps any.
+void UnsavedWork::claim_file() {
+  std::error_code none;
+  for (int place = 1; place <= most_windows; ++place) {
+    const fs::path file = kept_file_of(file_.path, place);
+    auto lock = ProcessLock::take(lock_of(file));
+    if (!lock || fs::exists(file, none)) continue;
+    held_.insert_or_assign(file, *std::move(lock));
+    keep_in_ = file;
+    return;
+  }
+}
+
+fs::path UnsavedWork::kept_file_of(const fs::path& scene, int place) const {
+  std::string name = fmt::format("{}-{:016x}", scene.stem().string(), hash_of(scene.string()));
+  if (place > 1) name += fmt::format("-{}", place);
+  return folder_ / (name + ".json");
+}
+
+UnsavedWork::Files UnsavedWork::kept_files_of(const fs::path& scene) const {
+  Files out;
+  if (folder_.empty()) return out;
+  std::error_code none;
+  for (int place = 1; place <= most_windows; ++place)
+    if (fs::path file = kept_file_of(scene, place); fs::exists(file, none))
+      out.push_back(std::move(file));
+  return out;
+}
+
+/// Whether another program that runs now keeps its work there.
+bool UnsavedWork::is_anothers(const fs::path& kept) const {
+  return !held_.contains(kept) && !ProcessLock::take(lock_of(kept));
+}
+
+std::optional<UnsavedWork::Kept> UnsavedWork::read_kept(const fs::path& kept) const {
+  if (is_anothers(kept)) return std::nullopt;
+  auto text = read_file(kept);
+  if (!text) return std::nullopt;
+  return Kept{*std::move(text), time_text(kept), kept, held_.contains(kept)};
 }
 
 std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
   std::vector<Unnamed> out;
-  if (folder_.empty()) return out;
   std::error_code none;
+  if (folder_.empty() || !fs::exists(folder_, none)) return out;
   for (int n = 1; n <= most_unnamed; ++n) {
-    const fs::path scene = unnamed_scene(n), file = kept_file_of(scene);
-    if (scene == file_.path || !fs::exists(file, none)) continue;
+    const fs::path scene = unnamed_scene(n);
     // What has a file by now is offered with that.
-    if (fs::exists(scene, none)) continue;
-    if (auto text = read_file(file)) out.push_back({scene, {*std::move(text), time_text(file)}});
+    if (scene == file_.path || fs::exists(scene, none)) continue;
+    for (const fs::path& file : kept_files_of(scene))
+      if (auto kept = read_kept(file)) out.push_back({scene, *std::move(kept)});
   }
   return out;
+}
+
+void UnsavedWork::take_over(const Kept& kept) {
+  if (held_.contains(kept.file)) return;
+  if (auto lock = ProcessLock::take(lock_of(kept.file)))
+    held_.insert_or_assign(kept.file, *std::move(lock));
 }
 
 fs::path UnsavedWork::free_name() const {
@@ -87,7 +145,7 @@ fs::path UnsavedWork::free_name() const {
   const auto taken = [&](const fs::path& scene) {
     // In a long tick the newest deeds of the scene that is shown are not known yet.
     if (file_.unnamed && scene == file_.path && (any_ || stale_ || collected_.valid())) return true;
-    return fs::exists(scene, none) || (!folder_.empty() && fs::exists(kept_file_of(scene), none));
+    return fs::exists(scene, none) || !kept_files_of(scene).empty();
   };
   int n = 1;
   while (n < most_unnamed && taken(unnamed_scene(n))) ++n;
@@ -95,10 +153,12 @@ fs::path UnsavedWork::free_name() const {
 }
 
 std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
-  if (keep_in_.empty()) return std::nullopt;
-  auto text = read_file(keep_in_);
-  if (!text || *text == file_.on_disk || *text == file_.text) return std::nullopt;
-  return Kept{*std::move(text), time_text(keep_in_)};
+  if (file_.text.empty()) return std::nullopt;
+  for (const fs::path& file : kept_files_of(file_.path))
+    if (auto kept = read_kept(file);
+        kept && kept->text != file_.on_disk && kept->text != file_.text)
+      return kept;
+  return std::nullopt;
 }
 
 void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, double dt) {
@@ -123,7 +183,7 @@ void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, 
   if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
 }
 
-std::vector<std::string> UnsavedWork::texts_after(Session& session,
+std::vector<std::string> UnsavedWork::texts_after(const std::string& start, Session& session,
                                                   const std::vector<DeedEdits>& too_old,
                                                   const std::vector<DeedEdits>& deeds,
                                                   bool own_thread) const {
@@ -135,25 +195,26 @@ std::vector<std::string> UnsavedWork::texts_after(Session& session,
   if (each.back().wait_for(patience) != std::future_status::ready) return {};
   std::vector<SceneEdit> edits = old.get();
   std::vector<std::string> out;
-  std::string text = text_with(edits).value_or(file_.text);
+  std::string text = text_with(start, edits).value_or(start);
   for (auto& deed : each) {
     for (SceneEdit& edit : deed.get()) edits.push_back(std::move(edit));
-    text = text_with(edits).value_or(text);
+    text = text_with(start, edits).value_or(text);
     out.push_back(text);
   }
   return out;
 }
 
-std::optional<std::string> UnsavedWork::text_with(const std::vector<SceneEdit>& edits) const {
+std::optional<std::string> UnsavedWork::text_with(const std::string& text,
+                                                  const std::vector<SceneEdit>& edits) const {
   // It is read again in place of the text that it was made of.
   const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
-  auto saved = save_edits(file_.text, in_place ? file_.path.string() : std::string(), edits);
+  auto saved = save_edits(text, in_place ? file_.path.string() : std::string(), edits);
   return saved ? std::optional(std::move(saved->text)) : std::nullopt;
 }
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
   edits_ = std::move(edits);
-  const std::optional<std::string> saved = text_with(edits_);
+  const std::optional<std::string> saved = text_with(file_.text, edits_);
   if (!saved) {  // what could be kept last stays kept
     any_ = any_ || !edits_.empty();
     return;
@@ -162,19 +223,22 @@ void UnsavedWork::take(std::vector<SceneEdit> edits) {
   any_ = now != file_.on_disk;
   if (now == text_) return;
   text_ = now;
-  if (keep_in_.empty()) return;
+  keep();
+}
+
+/// What is not saved, in a file; none where all is.
+void UnsavedWork::keep() {
+  if (folder_.empty() || file_.text.empty()) return;
+  if (!any_) return throw_away(keep_in_);
   std::error_code none;
-  if (!any_) {
-    fs::remove(keep_in_, none);
-    return;
-  }
   fs::create_directories(folder_, none);
+  if (keep_in_.empty()) claim_file();
   // A full disk must not stop the work; saving will say what is wrong.
-  (void)write_file(keep_in_, std::string_view(text_));
+  if (!keep_in_.empty()) (void)write_file(keep_in_, std::string_view(text_));
 }
 
 void UnsavedWork::saved(const SceneFile& file) {
-  throw_away();
+  throw_away(keep_in_);
   file_.path = file_.read_from = file.path;
   file_.on_disk = file.on_disk;
   choose_file();
@@ -182,9 +246,13 @@ void UnsavedWork::saved(const SceneFile& file) {
   stale_ = true;  // the newest deed may have gone on
 }
 
-void UnsavedWork::throw_away() {
+void UnsavedWork::throw_away(const fs::path& kept) {
+  if (kept.empty()) return;
+  const fs::path file = kept;  // may be that of keep_in_
   std::error_code none;
-  if (!keep_in_.empty()) fs::remove(keep_in_, none);
+  fs::remove(file, none);
+  held_.erase(file);
+  if (keep_in_ == file) keep_in_.clear();
 }
 
 }  // namespace tumble

@@ -228,13 +228,18 @@ void Session::seek(uint64_t tick) {
   });
 }
 
-void Session::restart() {
-  interrupt([this] {
+void Session::restart(std::function<void(World&)> begin) {
+  interrupt([this, begin = std::move(begin)] {
     {
       std::lock_guard lock(mutex_);
       fault_.reset();
     }
-    if (const Status found = keyframes_.restart(*world_); !found) fail(found.error());
+    Status begun = keyframes_.restart(*world_);
+    if (begun && begin) {
+      begin(*world_);
+      begun = world_->apply_commands();
+    }
+    if (!begun) fail(begun.error());
     if (second_) second_->begin(*world_);
     note_rewind();
     publish(0);

@@ -117,8 +117,9 @@ class Session {
   /// The same to the first tick of which `found` says so, from the frames before and after it.
   using Found = std::function<bool(const Frame& before, const Frame& after)>;
   void step_until(Found found, double most_seconds);
-  /// Back to the first tick as it was before any change; runs on or stays paused as before.
-  void restart();
+  /// Back to the first tick as it was before any change, and then changed by `begin`; runs on or
+  /// stays paused as before.
+  void restart(std::function<void(World&)> begin = {});
   /// Pauses and goes to a tick, forward or back. The next seek ends a way forward that is still
   /// under way.
   void seek(uint64_t tick);

@@ -50,7 +50,8 @@ void ShownSettings::fetch(Session& session, bool of_replay) {
   });
 }
 
-std::vector<std::string> ShownSettings::restart(Session& session, bool as_scene) {
+std::vector<std::string> ShownSettings::restart(Session& session, bool as_scene,
+                                                std::function<void(World&)> begin) {
   WorldSettings wanted = value();
   std::vector<std::string> changed = changed_settings(of_scene_, wanted);
   {
@@ -61,8 +62,8 @@ std::vector<std::string> ShownSettings::restart(Session& session, bool as_scene)
     if (as_scene || untouched) wanted = of_scene_;
     shared_->value = wanted;
   }
-  session.restart();
-  session.post([wanted](World& world) {
+  session.restart([wanted, begin = std::move(begin)](World& world) {
+    if (begin) begin(world);
     if (!changed_settings(world.settings(), wanted).empty()) (void)world.set_settings(wanted);
   });
   return changed;

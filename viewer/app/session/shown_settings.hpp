@@ -2,6 +2,7 @@
 #include "engine/world/settings.hpp"
 #include "viewer/app/session/session.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,8 +23,11 @@ class ShownSettings {
   void fetch(Session& session, bool of_replay);
   /// Restarts the world with the settings that hold now, or with those of the scene: history does
   /// not know which of them a person wants to keep. Names those in which the two differ. What only
-  /// a replay has changed it will change again.
-  std::vector<std::string> restart(Session& session, bool as_scene);
+  /// a replay has changed it will change again. `begin` does to the world at its first tick what
+  /// belongs to its beginning besides.
+  std::vector<std::string> restart(Session& session, bool as_scene,
+                                   std::function<void(World&)> begin = {});
+  const WorldSettings& of_scene() const { return of_scene_; }
   /// Why the newest change was refused, once.
   std::optional<Error> take_refusal();
 

@@ -1,5 +1,7 @@
 #include "engine/world/world.hpp"
+#include "viewer/app/editing/edits_at_start.hpp"
 #include "viewer/app/scenes/scene_lesson.hpp"
+#include "viewer/app/session/changed_settings.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/open_scene.hpp"
 
@@ -360,7 +362,7 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* joint = std::get_if<RemoveJoint>(&request)) {
     remove_joint(joint->id);
   } else if (const auto* settings = std::get_if<Compare>(&request)) {
-    second_.begin(session(), settings->settings, scene_.trail);
+    compare(settings->settings);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
   } else if (const auto* part = std::get_if<EditPart>(&request)) {
@@ -370,7 +372,7 @@ void Application::apply(const UiRequest& request) {
   } else if (const auto* said = std::get_if<AnswerQuestion>(&request)) {
     question_.answer(said->choice, ui_);
   } else if (const auto* curve = std::get_if<AddCurve>(&request)) {
-    instruments_.measures.add(curve->quantity, world_.frame());
+    add_curve(curve->quantity);
   } else if (const auto* gone = std::get_if<RemoveCurve>(&request)) {
     instruments_.measures.remove(gone->index);
   } else if (std::holds_alternative<WriteMeasures>(request)) {
@@ -392,9 +394,19 @@ void Application::apply(const UiRequest& request) {
   }
 }
 
+/// What was built and edited is of the scene as its file would say it, and stays; what was pulled,
+/// shot or moved by time itself does not.
 void Application::restart(bool as_scene) {
+  const WorldSettings now = settings_.value(), of_scene = settings_.of_scene();
+  if (as_scene && !follows_replay() && !changed_settings(now, of_scene).empty())
+    begin_edit("Restart with the scene's settings")->push_back(ChangedSettings{now, of_scene});
   instruments_.history.clear();
-  const std::vector<std::string> changed = settings_.restart(session(), as_scene);
+  const std::vector<std::string> changed =
+      settings_.restart(session(), as_scene,
+                        [deeds = deeds_.edits().file_edits(), parts = tools_.parts.opened(),
+                         live = tools_.parts.live(), refusal = tools_.refusal](World& world) {
+                          do_at_start(world, deeds, parts, live, refusal);
+                        });
   deeds_.jump(!changed.empty());
   if (changed.empty()) return;
   const std::string names = fmt::format("{}", fmt::join(changed, ", "));
@@ -404,6 +416,29 @@ void Application::restart(bool as_scene) {
     ui_.toast(
         ToastKind::info, "Restarted with the settings chosen here",
         {"Kept: " + names, shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
+}
+
+/// Other settings of a world B that is there are a deed beside world A.
+void Application::compare(const WorldSettings& wanted) {
+  if (const WorldComparison* now = second_.comparison())
+    deeds_.begin_beside("Change settings of B", in_gesture(),
+                        [this, other = now->settings]() mutable {
+                          const WorldComparison* shown = second_.comparison();
+                          if (!shown) return;
+                          const WorldSettings those = std::exchange(other, shown->settings);
+                          second_.begin(session(), those, scene_.trail);
+                        });
+  second_.begin(session(), wanted, scene_.trail);
+}
+
+/// One of which nothing is known of earlier moments says so.
+void Application::add_curve(Quantity quantity) {
+  const size_t before = instruments_.measures.series().size();
+  instruments_.measures.add(std::move(quantity), world_.frame());
+  if (instruments_.measures.series().size() == before || world_.frame().tick == 0) return;
+  ui_.toast(ToastKind::info, "The curve begins at this moment",
+            {fmt::format("{} begins the run again: it is then drawn from the start.",
+                         shortcut_of(Action::restart))});
 }
 
 void Application::toggle_recording(bool video) {

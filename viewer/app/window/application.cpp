@@ -53,7 +53,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   return app;
 }
 
-void Application::show(OpenedScene scene) {
+void Application::show(OpenedScene scene, bool goes_on) {
   // The newest deeds, too, are kept before it goes.
   if (world_.any()) deeds_.finish(session(), options_.own_thread);
   if (recording()) toggle_recording();
@@ -73,6 +73,7 @@ void Application::show(OpenedScene scene) {
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   switch_overlays(scene_.overlays, scene.overlays, ui_.overlays);
+  if (!goes_on) building_overlays_.end(scene.overlays, ui_.overlays);
   settings_.open(scene.world->settings());
   canvas_.open(scene.look, scene.trail);
   camera_.open(scene.view, *scene.world->frame());
@@ -88,13 +89,13 @@ void Application::show(OpenedScene scene) {
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   scene_file_.open(scene.file);
   replay_.open(scene, options_.threads);
-  deeds_.unsaved().open(scene.file);
+  deeds_.unsaved().open(scene.file, goes_on);
   question_.forget();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
   open_marks(tick_seconds);
   begin_lesson();
-  offer_kept_work();
+  if (!goes_on) offer_kept_work();
 }
 
 void Application::finish() {

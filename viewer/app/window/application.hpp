@@ -8,7 +8,7 @@
 #include "viewer/app/window/editing_tools.hpp"
 #include "viewer/app/window/hand.hpp"
 #include "viewer/app/window/instruments.hpp"
-#include "viewer/app/window/lesson_overlays.hpp"
+#include "viewer/app/window/lent_overlays.hpp"
 #include "viewer/app/window/marks_desk.hpp"
 #include "viewer/app/window/picture_layout.hpp"
 #include "viewer/app/window/pointer.hpp"
@@ -124,14 +124,25 @@ class Application {
 
  private:
   Application(ApplicationOptions options, Canvas canvas);
-  void show(OpenedScene scene);
+  void show(OpenedScene scene, bool goes_on = false);
   void open_for(SceneOpening::Cause cause, SceneWish wish);
-  std::vector<ChoiceHistory::Step> deeds_as_choices();
+  std::vector<ChoiceHistory::Step> deeds_as_choices(const SceneWish& start, std::string text);
   void finish_opening(SceneOpening::Opened done);
+  /// What a person looks at, in the scene that is opened anew.
+  struct LookedAt {
+    std::vector<BodyId> selected;
+    std::vector<Quantity> curves;
+  };
+  LookedAt looked_at_in(const OpenedScene& scene) const;
+  void keep_choices(SceneOpening::Cause& cause);
   void look_at_view();
   UiModel model() const;
   void route(std::span<const InputEvent> events, double dt);
   bool route_key(const KeyPressed& key);
+  bool dialog_open() const;
+  void press_in_dialog(const KeyPressed& key);
+  void add_curve(Quantity quantity);
+  void compare(const WorldSettings& wanted);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   bool give_up_gesture();
   void close_something();
@@ -145,7 +156,7 @@ class Application {
   void save_scene();
   void write_scene(const std::string& file);
   void look_at_files(double dt);
-  void take_up(std::string text, std::filesystem::path called = {});
+  void take_up(const UnsavedWork::Kept& kept, std::filesystem::path called = {});
   void offer_kept_work();
   void offer_unnamed_work();
   bool in_gesture() const;
@@ -179,7 +190,7 @@ class Application {
   void keep_hints();
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
-  void choose(const std::vector<std::string>& overrides, std::string what);
+  void choose(const std::vector<std::string>& overrides, std::string what, uint64_t tick);
   bool go_back_on(std::optional<ChoiceHistory::Step> choice);
   void shoot(const Ray& ray);
   void end_drag();
@@ -260,7 +271,8 @@ class Application {
   EditingTools tools_;
   Instruments instruments_;
   MarksDesk marks_;
-  LessonOverlays lesson_overlays_;
+  /// Those that the lesson's page, and those that building, has switched on.
+  LentOverlays lesson_overlays_, building_overlays_;
 
   PictureLayout layout_;
   SceneCamera camera_;

@@ -188,7 +188,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
     // What was joined is seen, and where.
     if (std::holds_alternative<NewJoint>(ui_.build.what) ||
         std::holds_alternative<NewSpring>(ui_.build.what))
-      ui_.overlays.joints = true;
+      building_overlays_.switch_on(&Overlays::joints, ui_.overlays);
   } else if (tools_.builder.half_way()) {
     keep_hints();
   } else {

@@ -1,4 +1,5 @@
 // The scene's file: opened, changed by others, saved, and what was not saved.
+#include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -40,48 +41,80 @@ void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
   finish_opening({std::move(wish), std::move(scene), std::move(cause)});
 }
 
+/// By their names, for the world is another one.
+Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const {
+  LookedAt out;
+  const World& world = *scene.world;
+  for (const BodyId id : selection_.all())
+    if (const BodyId there = world.find_body(name_of(id)); !there.is_null())
+      out.selected.push_back(there);
+  const auto& named = scene.quantities;
+  for (const Measures::Series& curve : instruments_.measures.series()) {
+    const std::string& name = curve.quantity.name;
+    if (auto found = quantity_of_name(*world.frame(), name))
+      out.curves.push_back(*std::move(found));
+    else if (named && std::ranges::find(*named->names, name) != named->names->end())
+      out.curves.push_back(named->find(name));
+  }
+  return out;
+}
+
+/// What can be taken back in the scene that has been opened.
+void Application::keep_choices(SceneOpening::Cause& cause) {
+  const bool lost = cause.reloads && (!deeds_.choices().empty() || cause.deeds_lost);
+  auto& choice = cause.choice;
+  if (!choice) deeds_.choices().forget();
+  for (ChoiceHistory::Step& deed : cause.deeds) deeds_.choices().gone(std::move(deed));
+  if (choice) {
+    if (choice->way != ChoiceHistory::Way::anew)
+      ui_.toast(ToastKind::info,
+                (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
+                    choice->what);
+    deeds_.choices().gone(*std::move(choice));
+  }
+  if (!cause.reloads) return;
+  std::vector<std::string> lines;
+  if (lost) lines.push_back("What was done before that cannot be taken back any more.");
+  ui_.toast(ToastKind::info,
+            scene_.wish.text ? "The scene's file has changed: opened anew, with what was changed "
+                               "here"
+                             : "The scene's file has changed: opened anew",
+            std::move(lines));
+}
+
 void Application::finish_opening(SceneOpening::Opened done) {
   auto& [asked, opened, cause] = done;
   auto& choice = cause.choice;
-  if (opened) {
-    ui_.toasts.clear();
-    // The same scene with other numbers or another text is looked at from where one stands, and
-    // waits if it did.
-    const bool same = asked.scene == scene_.wish.scene &&
-                      (choice || !asked.overrides.empty() || asked.text || cause.reloads);
-    const Camera camera = camera_.camera();
-    const bool paused = session().paused();
-    const uint64_t tick = cause.reloads ? world_.frame().tick : 0;
-    if (opened->file.unnamed) {
-      // Only with its newest deeds is it known whether the scene that is shown needs its name.
-      deeds_.finish(session(), options_.own_thread);
-      opened->file.path = !asked.called.empty()         ? asked.called
-                          : same && scene_.file.unnamed ? scene_.file.path
-                                                        : deeds_.unsaved().free_name();
-    }
-    show(std::move(*opened));
-    if (!choice) {
-      deeds_.choices().forget();
-    } else {
-      if (choice->way != ChoiceHistory::Way::anew)
-        ui_.toast(ToastKind::info,
-                  (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
-                      choice->what);
-      for (const ChoiceHistory::Step& deed : cause.deeds) deeds_.choices().gone(deed);
-      deeds_.choices().gone(*std::move(choice));
-    }
-    if (cause.reloads)
-      ui_.toast(ToastKind::info, asked.text ? "The scene's file has changed: opened anew, with "
-                                              "what was changed here"
-                                            : "The scene's file has changed: opened anew");
-    if (!same && scene_.file.unnamed) begin_building();
-    if (!same) return;
-    camera_.controller().set(camera);
-    if (tick > 0) session().seek(tick);
-    return session().set_paused(paused);
+  if (!opened) {
+    const std::string file = std::filesystem::path(asked.scene).filename().string();
+    return ui_.toast(ToastKind::error, "'" + file + "' cannot be opened",
+                     lines_of(opened.error().text()));
   }
-  const std::string file = std::filesystem::path(asked.scene).filename().string();
-  ui_.toast(ToastKind::error, "'" + file + "' cannot be opened", lines_of(opened.error().text()));
+  ui_.toasts.clear();
+  // The same scene with other numbers or another text is looked at from where one stands, and
+  // waits if it did.
+  const bool same = asked.scene == scene_.wish.scene &&
+                    (choice || !asked.overrides.empty() || asked.text || cause.reloads);
+  const bool paused = session().paused();
+  if (opened->file.unnamed) {
+    // Only with its newest deeds is it known whether the scene that is shown needs its name.
+    deeds_.finish(session(), options_.own_thread);
+    opened->file.path = !asked.called.empty()         ? asked.called
+                        : same && scene_.file.unnamed ? scene_.file.path
+                                                      : deeds_.unsaved().free_name();
+  }
+  const LookedAt looked_at = same ? looked_at_in(*opened) : LookedAt{};
+  const SceneCamera camera = camera_;
+  show(std::move(*opened), same);
+  keep_choices(cause);
+  if (!same && scene_.file.unnamed) begin_building();
+  if (!same) return;
+  for (const BodyId id : looked_at.selected) selection_.add(id);
+  for (const Quantity& quantity : looked_at.curves)
+    instruments_.measures.add(quantity, world_.frame());
+  camera_.go_on_from(camera);
+  if (cause.tick > 0) session().seek(cause.tick);
+  session().set_paused(paused);
 }
 
 /// An empty floor has nothing to show: a new scene stands still until it is to run.
@@ -100,6 +133,10 @@ void Application::look_at_files(double dt) {
   if (!ui_.shows(PanelId::question)) question_.decline(ui_);
   deeds_.unsaved().update(session(), deeds_.edits().file_edits(), dt);
   const auto now = scene_file_.changed_by_others(dt);
+  if (scene_file_.taken_away())
+    ui_.toast(ToastKind::warning, "The scene's file is gone",
+              {scene_.file.path.string(), fmt::format("What is shown stays: {} writes it anew.",
+                                                      shortcut_of(Action::save_scene))});
   if (!now || recording()) return;
   SceneWish wish = scene_.wish;
   wish.text.reset();
@@ -112,14 +149,27 @@ void Application::look_at_files(double dt) {
                         "the file."});
     wish.text = std::move(both->text);
   }
-  open_for({{}, {}, true}, std::move(wish));
+  SceneOpening::Cause cause;
+  cause.reloads = true;
+  cause.tick = world_.frame().tick;
+  SceneWish start = wish;
+  start.text.reset();
+  cause.deeds = deeds_as_choices(start, *now);
+  cause.deeds_lost = cause.deeds.empty() && !deeds_.edits().empty();
+  open_for(std::move(cause), std::move(wish));
 }
 
-void Application::take_up(std::string text, std::filesystem::path called) {
+/// The scene with work that was kept of it, which can be taken back as a whole.
+void Application::take_up(const UnsavedWork::Kept& kept, std::filesystem::path called) {
+  deeds_.unsaved().take_over(kept);
   SceneWish wish = scene_.wish;
-  wish.text = std::move(text);
+  wish.text = kept.text;
   wish.called = std::move(called);
-  open(std::move(wish));
+  if (!wish.called.empty()) return open(std::move(wish));
+  SceneOpening::Cause cause;
+  cause.choice = ChoiceHistory::Step{ChoiceHistory::Way::anew, "Go on with unsaved changes",
+                                     scene_.wish, wish};
+  open_for(std::move(cause), std::move(wish));
 }
 
 /// New scenes that nobody has saved: each can be gone on with, and none is lost by another.
@@ -134,7 +184,7 @@ void Application::offer_unnamed_work() {
     const std::string name = one.path.stem().string();
     open.question.lines.push_back(fmt::format("{}, of {}", name, one.kept.when));
     open.question.choices.push_back({"take_up_" + name, name});
-    open.answers.push_back([this, one] { take_up(one.kept.text, one.path); });
+    open.answers.push_back([this, one] { take_up(one.kept, one.path); });
   }
   open.question.lines.push_back("They are kept until they are saved. Go on with one of them?");
   open.question.choices.push_back({"later", "A new one"});
@@ -150,10 +200,11 @@ void Application::offer_kept_work() {
   if (!kept) return;
   question_.ask(
       {{"There are changes of this scene that were not saved",
-        {fmt::format("They were made {}, and kept when the program ended.", kept->when)},
+        {fmt::format("They were made {}, and kept when {}.", kept->when,
+                     kept->own ? "this scene was left" : "the program ended")},
         {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
-       {[this, text = kept->text] { take_up(text); }, [this] { deeds_.unsaved().throw_away(); },
-        [] {}}},
+       {[this, kept = *kept] { take_up(kept); },
+        [this, file = kept->file] { deeds_.unsaved().throw_away(file); }, [] {}}},
       ui_);
 }
 
@@ -173,30 +224,36 @@ void Application::ask_to_quit() {
 }
 
 void Application::change_parameter(const ChangeParameter& change) {
-  choose({fmt::format("parameters.{}={}", change.name, change.value)}, "Change " + change.name);
+  choose({fmt::format("parameters.{}={}", change.name, change.value)}, "Change " + change.name,
+         world_.frame().tick);
 }
 
 /// The moments that deeds go back to are of this world. Where another comes in its place, the deeds
 /// become choices of the scene's text: taken back one by one each opens the scene without it.
-std::vector<ChoiceHistory::Step> Application::deeds_as_choices() {
+/// `start`: the scene without them, of this text.
+std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& start,
+                                                               std::string text) {
   const auto deeds = deeds_.edits().deeds();
   std::vector<DeedEdits> edits;
   for (const auto& deed : deeds) edits.push_back(deed.second);
+  const std::vector<uint64_t> ticks = deeds_.edits().ticks();
   const std::vector<std::string> texts = deeds_.unsaved().texts_after(
-      session(), deeds_.edits().forgotten(), edits, options_.own_thread);
+      text, session(), deeds_.edits().forgotten(), edits, options_.own_thread);
   std::vector<ChoiceHistory::Step> out;
-  SceneWish wish = scene_.wish;
+  SceneWish wish = start;
   for (size_t i = 0; i < texts.size(); ++i) {
-    if (texts[i] == wish.text.value_or(scene_.file.text)) continue;  // nothing that a file can say
+    if (texts[i] == text) continue;  // nothing that a file can say
     SceneWish before = wish;
-    wish.text = texts[i];
-    out.push_back({ChoiceHistory::Way::anew, deeds[i].first, std::move(before), wish});
+    wish.text = text = texts[i];
+    out.push_back({ChoiceHistory::Way::anew, deeds[i].first, std::move(before), wish, ticks[i],
+                   world_.frame().tick});
   }
   return out;
 }
 
-/// The scene anew with other numbers, and with what was changed here.
-void Application::choose(const std::vector<std::string>& overrides, std::string what) {
+/// The scene anew with other numbers, and with what was changed here, at the moment `tick`.
+void Application::choose(const std::vector<std::string>& overrides, std::string what,
+                         uint64_t tick) {
   // What was done just now counts, too.
   deeds_.finish(session(), options_.own_thread);
   SceneWish before = scene_.wish;
@@ -207,16 +264,23 @@ void Application::choose(const std::vector<std::string>& overrides, std::string 
     std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
     after.overrides.push_back(one);
   }
-  open_for({ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after},
-            deeds_as_choices()},
-           after);
+  SceneOpening::Cause cause;
+  cause.choice = ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after};
+  cause.choice->leave_at(world_.frame().tick);
+  cause.deeds = deeds_as_choices(scene_.wish, scene_.file.text);
+  cause.tick = tick;
+  open_for(std::move(cause), after);
 }
 
 /// A choice taken back, or made again; false when there is none.
 bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
   if (!choice) return false;
+  SceneOpening::Cause cause;
+  cause.tick = choice->tick();
+  choice->leave_at(world_.frame().tick);
   SceneWish wish = choice->wish();
-  open_for({std::move(choice)}, std::move(wish));
+  cause.choice = std::move(choice);
+  open_for(std::move(cause), std::move(wish));
   return true;
 }
 
@@ -249,6 +313,8 @@ void Application::write_scene(const std::string& file) {
   scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
   scene_.wish.text.reset();
   deeds_.unsaved().saved(scene_.file);
+  // What could not be opened of it has been replaced.
+  std::erase_if(ui_.toasts, [](const Toast& t) { return t.title.ends_with("cannot be opened"); });
   ui_.toast(ToastKind::info, "Saved to " + file);
 }
 

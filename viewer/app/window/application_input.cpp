@@ -49,9 +49,43 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   pointer_.set_placing(ui_.building || (ui_.ruling && ui_.shows(PanelId::ruler)));
   const auto beside = layout_.area.places() ? second_.view(world_.view()) : std::nullopt;
   apply(pointer_.handle(for_scene, before, dt, {world_.view(), beside ? &*beside : nullptr},
-                        camera(), gestures(), !host_.wants_keys() && !ui_.shows(PanelId::scenes)));
+                        camera(), gestures(),
+                        !host_.wants_keys() && !ui_.shows(PanelId::scenes) && !dialog_open()));
   if (tools_.arranger.active()) hold_arranged();
   pointer_.choose_look(host_, world_.view(), camera_.seen());
+}
+
+/// Something stands over the world and waits for an answer.
+bool Application::dialog_open() const {
+  return !ui_.hidden &&
+         (ui_.shows(PanelId::question) || ui_.shows(PanelId::save) || ui_.shows(PanelId::help));
+}
+
+/// What does something to the world behind waits until the dialog is closed: there are only the
+/// dialog's own keys, those that put another one in its place, and those of the window itself.
+void Application::press_in_dialog(const KeyPressed& key) {
+  const bool saves = ui_.shows(PanelId::save) && !ui_.shows(PanelId::question);
+  if (saves && key.key == Key::enter && scene_file_.preview()) return write_scene(ui_.save_file);
+  const auto action = find_action(key.key, pointer_.held().mods(), key.repeat);
+  if (!action) return;
+  switch (*action) {
+    case Action::quit:
+    case Action::full_screen:
+    case Action::larger:
+    case Action::smaller:
+    case Action::next_theme:
+    case Action::screenshot:
+      return perform(*action);
+    case Action::save_scene:
+      if (saves) perform(*action);
+      return;
+    case Action::toggle_help:
+    case Action::pick_scene:
+      if (!saves && !ui_.shows(PanelId::question)) perform(*action);
+      return;
+    default:
+      return;
+  }
 }
 
 /// True when the key was a command.
@@ -61,6 +95,10 @@ bool Application::route_key(const KeyPressed& key) {
     return true;
   }
   if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
+  if (dialog_open()) {
+    press_in_dialog(key);
+    return true;
+  }
   // In flight its keys are no commands; nor are the letters beside them, while a button is held.
   const uint8_t mods = pointer_.held().mods();
   if (pointer_.tool().flying() && (mods & ~Mods::shift) == 0) {
@@ -104,11 +142,9 @@ void Application::close_something() {
   const SessionCounters counters = session().counters();
   if (counters.asking_seconds > slow_question_seconds) return session().cancel_question();
   if (counters.under_way_seconds > slow_tick_seconds) return apply(CancelTick{});
-  const auto error = std::find_if(ui_.toasts.rbegin(), ui_.toasts.rend(),
-                                  [](const Toast& t) { return t.kind == ToastKind::error; });
-  if (error != ui_.toasts.rend())
-    ui_.toasts.erase(std::next(error).base());
-  else if (tools_.builder.half_way())
+  const auto is_error = [](const Toast& t) { return t.kind == ToastKind::error; };
+  if (std::erase_if(ui_.toasts, is_error) > 0) return;
+  if (tools_.builder.half_way())
     tools_.builder.cancel();
   else if (pointer_.tool().free_flight())
     pointer_.set_free_flight(false);

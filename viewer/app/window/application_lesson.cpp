@@ -49,7 +49,7 @@ void Application::answer_lesson(const std::string& said) {
 /// The scene anew with what this page chooses, from where one looks.
 void Application::take_lesson_choice() {
   if (!scene_.lesson) return;
-  choose(scene_.lesson->wants().choose, "The lesson's choice");
+  choose(scene_.lesson->wants().choose, "The lesson's choice", 0);
 }
 
 /// Whether what the page chooses is what the world has.

@@ -27,7 +27,8 @@ void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, d
   tools_.parts.note();
   ui_.part = {std::string(list_of(part)), name};
   ui_.shows(PanelId::parts) = true;
-  if (std::holds_alternative<SensorDescription>(part)) ui_.overlays.sensors = true;
+  if (std::holds_alternative<SensorDescription>(part))
+    building_overlays_.switch_on(&Overlays::sensors, ui_.overlays);
 }
 
 void Application::edit_part(const EditPart& edit) {

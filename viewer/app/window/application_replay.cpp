@@ -22,7 +22,7 @@ void Application::tell_of_replay() {
     ui_.toast(ToastKind::warning, "The replay has ended otherwise than it was recorded");
   else if (*course == ReplayPlayer::Course::left)
     ui_.toast(ToastKind::info, "The replay is left: what happens from here on is yours",
-              {"Take back what you changed, or restart, and it goes on"});
+              {"Take back what you changed, and it goes on"});
 }
 
 /// Once a picture.

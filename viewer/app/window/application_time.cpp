@@ -312,8 +312,7 @@ bool Application::apply_in_time(const UiRequest& request) {
   } else if (const auto* followed = std::get_if<FollowFromKey>(&request)) {
     follow_from_key(*followed);
   } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {
-    if (scene_.quantities)
-      instruments_.measures.add(scene_.quantities->find(curve->name), world_.frame());
+    if (scene_.quantities) add_curve(scene_.quantities->find(curve->name));
   } else if (std::holds_alternative<WritePlot>(request)) {
     plot_wanted_ = true;
   } else {

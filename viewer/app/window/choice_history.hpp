@@ -17,6 +17,10 @@ class ChoiceHistory {
     Way way = Way::anew;
     std::string what;  ///< "Change balls"
     SceneWish before{}, after{};
+    uint64_t tick_before = 0, tick_after = 0;  ///< at which each was left
+    uint64_t tick() const { return way == Way::back ? tick_before : tick_after; }
+    /// The present moment is the one at which it is gone.
+    void leave_at(uint64_t now) { (way == Way::back ? tick_after : tick_before) = now; }
     const SceneWish& wish() const { return way == Way::back ? before : after; }
   };
   /// What takes the newest choice back; nothing when there is none.
@@ -29,6 +33,8 @@ class ChoiceHistory {
   void forget_taken_back() { undone_.clear(); }
   /// Another scene is shown, or this one has another text.
   void forget() { *this = ChoiceHistory{}; }
+  /// Nothing can be taken back.
+  bool empty() const { return done_.empty(); }
 
  private:
   std::vector<Step> done_, undone_;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double seconds_between_looks = 0.25;
 
+/// A file that was not there so often in a row is not being written anew.
+constexpr int looks_before_gone = 4;
+
 /// File systems stamp files by a clock of some milliseconds (of up to two seconds on FAT): a file
 /// that was written a shorter time ago may be written once more without another time. So its stamp
 /// proves nothing yet (git calls such a file "racily clean"), and it is read.
@@ -40,6 +43,8 @@ std::optional<std::string> FileWatch::look(double dt) {
   if (file_.empty() || since_look_ < seconds_between_looks) return std::nullopt;
   since_look_ = 0;
   const auto now = stamp();
+  missed_ = now ? 0 : missed_ + 1;
+  if (missed_ == looks_before_gone) gone_ = true;
   if (now != seen_) {
     seen_ = now;
     to_read_ = true;

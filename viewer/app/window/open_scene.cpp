@@ -5,6 +5,7 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/resources.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
+#include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/editing/unsaved_work.hpp"
 #include "viewer/app/scenes/quantities.hpp"
@@ -13,6 +14,9 @@
 #include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/capture/atomic_file.hpp"
+
+#include <cctype>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -54,6 +58,39 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   return file;
 }
 
+/// Limits of a number that the file gives without any: by its magnitude, and a count stays one.
+void limit_by_magnitude(SceneParameter& p) {
+  if (p.value == 0) {
+    p.min = -1;
+    p.max = 1;
+    return;
+  }
+  const double decade = std::pow(10.0, std::floor(std::log10(std::abs(p.value))));
+  const bool count = p.value >= 2 && p.value == std::round(p.value);
+  const double least = count ? 1 : 0.1 * decade, most = 10 * decade;
+  p.min = p.value > 0 ? least : -most;
+  p.max = p.value > 0 ? most : -least;
+}
+
+/// The numbers of the scene. Those that the file writes as an expression follow from the others.
+std::vector<SceneParameter> parameters_of(const SceneDescription& scene, const std::string& text) {
+  const JsonTextEdit file(text);
+  const auto is_number = [&](const std::string& name) {
+    if (text.empty()) return false;
+    const auto said = file.value(JsonTextEdit::Path{} / "parameters" / name);
+    return said && !said->empty() &&
+           (std::isdigit(static_cast<unsigned char>(said->front())) != 0 || said->front() == '-');
+  };
+  std::vector<SceneParameter> out;
+  for (const auto& [name, p] : scene.parameters_.items) {
+    const bool declared = !p.doc.empty() || p.min || p.max;
+    if (!declared && !is_number(name)) continue;
+    SceneParameter& number = out.emplace_back(SceneParameter{name, p.doc, p.value, p.min, p.max});
+    if (!declared) limit_by_magnitude(number);
+  }
+  return out;
+}
+
 std::shared_ptr<const NamedQuantities> named_quantities(std::shared_ptr<const BuiltScene> names,
                                                         const Frame& frame) {
   auto out = std::make_shared<NamedQuantities>();
@@ -81,9 +118,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.name = loaded->name;
   out.wish = {request.scene, request.overrides, request.text};
   out.file = file_of(*loaded, request);
-  for (const auto& [name, p] : description->parameters_.items)
-    if (!p.doc.empty() || p.min || p.max)  // others follow from these
-      out.parameters.push_back({name, p.doc, p.value, p.min, p.max});
+  out.parameters = parameters_of(*description, out.file.text);
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded->built.warnings;

@@ -13,6 +13,14 @@ void SceneCamera::open(const ViewPoint& view, const Frame& first) {
   flown_to_ = camera();
 }
 
+void SceneCamera::go_on_from(const SceneCamera& before) {
+  controller_ = before.controller_;
+  // It has gone along with its body so far; the rest of the way comes with the next moment.
+  if (!before.view_.follow.is_null()) carried_to_ = before.carried_to_;
+  flying_ = flying_ && before.flying_;
+  flown_to_ = camera();
+}
+
 void SceneCamera::carry(const SessionView& shown) {
   if (!view_.path.empty()) return fly(shown);
   if (!find_slot(*shown.to, view_.follow)) return;

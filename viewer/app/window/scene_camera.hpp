@@ -10,6 +10,9 @@ namespace tumble {
 class SceneCamera {
  public:
   void open(const ViewPoint& view, const Frame& first);
+  /// The same scene was opened anew: one goes on looking from where one was before, and going
+  /// along.
+  void go_on_from(const SceneCamera& before);
   CameraController& controller() { return controller_; }
   /// Of the whole window.
   const Camera& camera() const { return controller_.camera(); }

@@ -41,6 +41,8 @@ class SceneFileDesk {
   const SceneFile& file() const { return saver_.file(); }
   /// What somebody else has written into it, once.
   std::optional<std::string> changed_by_others(double dt) { return watch_.look(dt); }
+  /// Somebody else has taken it away, once.
+  bool taken_away() { return watch_.take_gone(); }
 
  private:
   SceneSaver saver_;

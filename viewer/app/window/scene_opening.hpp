@@ -14,7 +14,9 @@ class SceneOpening {
   struct Cause {
     std::optional<ChoiceHistory::Step> choice{};  ///< of a person; nothing: to be looked at
     std::vector<ChoiceHistory::Step> deeds{};     ///< done to the scene before that
-    bool reloads = false;  ///< it is the scene that is shown, written anew by somebody else
+    bool reloads = false;     ///< it is the scene that is shown, written anew by somebody else
+    uint64_t tick = 0;        ///< the moment to be shown, where it is still the same scene
+    bool deeds_lost = false;  ///< some of them are no choices any more
   };
   struct Opened {
     SceneWish asked;

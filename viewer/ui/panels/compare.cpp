@@ -3,12 +3,19 @@
 #include "viewer/ui/widgets.hpp"
 
 #include <array>
+#include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 namespace tumble {
 namespace {
+
+/// What only one of the two worlds has is nowhere in the other.
+std::string apart_text(double distance) {
+  return std::isfinite(distance) ? quantity_text(distance, "m") : std::string("in one world only");
+}
 
 void draw_difference(PanelContext& context, const WorldComparison& c) {
   if (!c.fault.empty()) {
@@ -19,9 +26,9 @@ void draw_difference(PanelContext& context, const WorldComparison& c) {
     note("A and B have the same bits so far.");
     return;
   }
-  value_row("apart now", quantity_text(c.distance, "m"));
+  value_row("apart now", apart_text(c.distance));
   if (!c.what.empty()) value_row("  most", c.what);
-  value_row("at most", quantity_text(c.worst, "m"));
+  value_row("at most", apart_text(c.worst));
   value_row("differ from tick", fmt::format("{}", *c.first_tick));
   if (!c.first_what.empty()) value_row("  first", c.first_what);
   if (ImGui::Button("Go there")) context.ask(SeekTick{*c.first_tick});

@@ -38,7 +38,8 @@ void draw_save_panel(PanelContext& context) {
     note("It may be possible in another folder:");
   }
   ImGui::SetNextItemWidth(-1);
-  ImGui::InputText("##file", &file);
+  if (ImGui::InputText("##file", &file, ImGuiInputTextFlags_EnterReturnsTrue))
+    context.ask(WriteScene{file});
   context.host.mark("save.file");
   if (!context.state.save_fault.empty()) {
     wrapped("It was not saved: " + context.state.save_fault, palette::red);

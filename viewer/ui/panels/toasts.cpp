@@ -22,6 +22,26 @@ uint32_t colour_of(ToastKind kind) {
   return palette::text;
 }
 
+/// Clicks go through to what is under a message. Its cross takes them: it is a window of its own.
+bool draw_cross(PanelContext& context, size_t index, const UiRect& message) {
+  constexpr float size = 20, from_side = 16, from_top = 9;
+  ImGui::SetNextWindowPos(
+      ImVec2(message.x + message.width - size - from_side, message.y + from_top));
+  ImGui::SetNextWindowSize(ImVec2(size, size));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+  const std::string name = fmt::format("toast{}.close", index);
+  ImGui::Begin(("##" + name).c_str(), nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBackground);
+  const bool closed = icon_button(context, name, Icon::close, "close", "Esc", size);
+  ImGui::End();
+  ImGui::PopStyleVar(3);
+  return closed;
+}
+
 /// Draws one message with its foot at `bottom`; returns its height.
 float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect& area,
                  float bottom, bool& closed) {
@@ -36,8 +56,7 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
   ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                           ImGuiWindowFlags_AlwaysAutoResize;
-  if (!error) flags |= ImGuiWindowFlags_NoInputs;
+                           ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
   // Panels under a message would shine through.
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
   ImGui::Begin(fmt::format("##toast{}", index).c_str(), nullptr, flags);
@@ -53,17 +72,13 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
   ImGui::TextUnformatted(toast.title.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
-  if (error) {
-    ImGui::SameLine(width - 36);
-    if (icon_button(context, fmt::format("toast{}.close", index), Icon::close, "close", "Esc", 20))
-      closed = true;
-  }
   ImGui::PushTextWrapPos(width - 28);
   for (const std::string& line : toast.lines) note(line);
   ImGui::PopTextWrapPos();
   context.host.mark(fmt::format("toast{}", index), {at.x, at.y, size.x, size.y});
   ImGui::End();
   ImGui::PopStyleVar();
+  if (error && draw_cross(context, index, {at.x, at.y, size.x, size.y})) closed = true;
   return size.y;
 }
 
