@@ -293,7 +293,10 @@ CleanupReport clean_up(TriangleMesh& mesh, const CleanupOptions& options) {
   report.unused_vertices = drop_unused_vertices(mesh, &origin, &report.unused);
   report.welded_vertices = weld(mesh, options.weld_distance, &origin, &report.welded);
   if (options.drop_degenerate) {
-    report.split_triangles = split_at_slivers(mesh, std::max(0.0, options.weld_distance));
+    const double on_a_side = std::max(0.0, options.weld_distance);
+    for (const uint32_t beside : close_t_junctions(mesh, on_a_side))
+      origin.triangle.push_back(origin.triangle[beside]);
+    report.split_triangles = split_at_slivers(mesh, on_a_side);
     report.degenerate_triangles = drop_degenerate_triangles(mesh, &origin, &report.degenerate);
   }
   if (options.drop_duplicates) {

@@ -9,7 +9,7 @@ namespace tumble {
 struct CleanupReport {
   size_t welded_vertices = 0;       ///< joined with another one
   size_t unused_vertices = 0;       ///< that no triangle referred to, removed
-  size_t split_triangles = 0;       ///< at a corner of a sliver that lay on their side
+  size_t split_triangles = 0;       ///< at a corner of another one that lay on their side
   size_t degenerate_triangles = 0;  ///< without area, removed
   size_t duplicate_triangles = 0;   ///< with the same three corners as another one, removed
   size_t flipped_triangles = 0;     ///< turned so that neighbours agree
@@ -46,8 +46,8 @@ struct CleanupOptions {
   /// Vertices this near are one, and corners this near to a side lie on it [m]; 0: equal ones and
   /// rounding error only; < 0: none.
   double weld_distance = 0;
-  /// Triangles without area that close a T-junction give way to halves of their neighbour
-  /// (split_at_slivers), the others are dropped.
+  /// Triangles are split at T-junctions, open or closed by triangles without area
+  /// (close_t_junctions, split_at_slivers); what is left without area is dropped.
   bool drop_degenerate = true;
   bool drop_duplicates = true;
   bool orient = true;  ///< neighbours agree; closed parts enclose positive volume

@@ -10,6 +10,13 @@ double triangle_height(const TriangleMesh& mesh, const Triangle& t);
 /// the longest side).
 bool is_sliver(const TriangleMesh& mesh, const Triangle& t, double height = 0);
 
+/// Closes T-junctions, as CAD exports have them, with slivers: where vertices m1, m2... of open
+/// edges lie on an open edge a-b, no further away than `height` [m] or rounding error, triangles
+/// (b, a, m1), (b, m1, m2)... are added behind the others, which split_at_slivers() then makes
+/// halves of the one that has a-b. Left open where an edge would get a third triangle. Returns the
+/// triangle beside each that was added. O(n log n).
+std::vector<uint32_t> close_t_junctions(TriangleMesh& mesh, double height = 0);
+
 /// Removes triangles that close a T-junction, as CAD exports have them: the corner m of a triangle
 /// (a, b, m) lies on its longest side, no further away than `height` [m] or rounding error, and the
 /// triangle on the other side of a-b is a whole one, (b, a, c). Dropping the first would open a

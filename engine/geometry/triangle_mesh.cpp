@@ -26,8 +26,12 @@ Status validate(const TriangleMesh& mesh, const MeshLimits& limits) {
       return fault(fmt::format("vertex {} is ({}, {}, {}), not finite", i, v.x(), v.y(), v.z()));
     }
     if (v.cwiseAbs().maxCoeff() > limits.max_coordinate) {
-      return fault(fmt::format("vertex {} is at ({}, {}, {}) m, further than {} m from the origin",
-                               i, v.x(), v.y(), v.z(), limits.max_coordinate));
+      Error far =
+          fault(fmt::format("vertex {} is at ({:.6g}, {:.6g}, {:.6g}) m, further than {} m "
+                            "from the origin",
+                            i, v.x(), v.y(), v.z(), limits.max_coordinate));
+      far.cure = "\"centre\": true of a mesh moves it there, \"scale\" makes it smaller";
+      return far;
     }
   }
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {

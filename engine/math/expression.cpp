@@ -279,9 +279,29 @@ Result<Expression> Expression::parse(std::string_view text) {
 }
 
 bool Expression::is_condition() const {
-  if (steps_.empty()) return false;
-  const Op op = steps_.back().op;  // postfix: the last one is done last
-  return op == Op::logical_not || (op >= Op::less && op <= Op::logical_or);
+  // What each value on the stack is, and whether all that !, && and || join are conditions.
+  std::vector<bool> conditions;
+  bool joins_conditions = true;
+  const auto take = [&conditions] {
+    const bool out = conditions.back();
+    conditions.pop_back();
+    return out;
+  };
+  for (const Step& s : steps_) {
+    if (s.op == Op::number || s.op == Op::name) {
+      conditions.push_back(false);
+    } else if (s.op == Op::negate || (s.op == Op::call && functions[s.index].arguments == 1)) {
+      conditions.back() = false;
+    } else if (s.op == Op::logical_not) {
+      joins_conditions = joins_conditions && conditions.back();
+    } else {
+      const bool b = take(), a = take();
+      const bool logical = s.op == Op::logical_and || s.op == Op::logical_or;
+      if (logical) joins_conditions = joins_conditions && a && b;
+      conditions.push_back(logical || (s.op >= Op::less && s.op < Op::logical_and));
+    }
+  }
+  return joins_conditions && conditions.size() == 1 && conditions.back();
 }
 
 Result<double> Expression::evaluate(const NameLookup& names) const {

@@ -67,6 +67,9 @@ Result<fs::path> resolve_scene(const std::string& name_or_path) {
   if (fs::is_regular_file(given, error)) return is_pack_file(given) ? unpack(given) : given;
   if (fs::is_directory(given, error) && given.has_parent_path())
     return Error{ErrorCode::not_found, "this is a folder, not a scene", name_or_path, {}};
+  if (given.has_parent_path() && fs::exists(given, error))
+    return Error{ErrorCode::not_found, "this is a device or a pipe, not a file", name_or_path,
+                 cure};
   if (name_or_path.find('/') == std::string::npos) {
     for (const char* folder : scene_folders)
       for (const std::string& file : {name_or_path + ".json", name_or_path})

@@ -103,9 +103,12 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const Import
   Aabb box;
   for (const Vec3& v : read->vertices) box.include(v);
   const double size = read->vertices.empty() ? 0 : box.extent().maxCoeff();
-  // What is larger than any mesh may be is refused below, as it stands.
-  const bool too_large = size > 2 * MeshLimits{}.max_coordinate;
-  const double weld = options.weld.value_or(too_large ? 0 : default_weld * size);
+  const double most = 2 * MeshLimits{}.max_coordinate;
+  if (size > most)
+    return Error{ErrorCode::invalid_argument,
+                 fmt::format("the mesh is {:.6g} m large; at most {} m are allowed", size, most),
+                 file.string(), "give it a smaller \"scale\""};
+  const double weld = options.weld.value_or(default_weld * size);
   if (!(weld >= 0 && weld <= most_weld * size) && size > 0) {
     return Error{ErrorCode::invalid_argument,
                  fmt::format("weld is {} m, and the whole mesh {} m", weld, size), file.string(),
@@ -124,7 +127,7 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const Import
     for (Vec3& v : out.mesh.vertices) v -= middle;
   }
   if (const Status ok = validate(out.mesh); !ok) {
-    return mesh_file_fault(file, ok.error().message);
+    return Error{ok.error().code, ok.error().message, file.string(), ok.error().cure};
   }
   if (read->dropped_polygons > 0) {
     out.notes.push_back(fmt::format(

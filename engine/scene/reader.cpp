@@ -77,7 +77,8 @@ SceneRead load_scene(const std::filesystem::path& file, const ReadOptions& optio
   };
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return refuse("there is no such file");
-  if (!std::filesystem::is_regular_file(file, error)) return refuse("this is not a file");
+  if (!std::filesystem::is_regular_file(file, error))
+    return refuse("this is a folder, a device or a pipe, not a file");
   const auto size = std::filesystem::file_size(file, error);
   if (error) return refuse("cannot be read: " + error.message());
   if (size > JsonLimits{}.max_bytes)

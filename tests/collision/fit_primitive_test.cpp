@@ -233,6 +233,35 @@ TEST_CASE("a plain with one small bump, of which samples see nothing, is fitted 
   for (const FittedPrimitive& fit : *fits) CHECK(std::isfinite(fit.volume));
 }
 
+TEST_CASE("no primitive is offered that reaches farther out than the mesh is large") {
+  // A plate of 6 x 0.1 x 6 m whose surface is rough by some nanometres: the sphere that runs
+  // nearest to it in the mean square is hundreds of metres large.
+  TriangleMesh plate;
+  constexpr int n = 24;
+  Random random(5);
+  for (const double y : {0.0, 0.1})
+    for (int i = 0; i <= n; ++i)
+      for (int k = 0; k <= n; ++k)
+        plate.vertices.push_back({6.0 * i / n, y + random.uniform(0, 1e-9), 6.0 * k / n});
+  const auto at = [&](int layer, int i, int k) {
+    return uint32_t((layer * (n + 1) + i) * (n + 1) + k);
+  };
+  for (int layer = 0; layer < 2; ++layer)
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) {
+        const uint32_t a = at(layer, i, k), b = at(layer, i + 1, k), c = at(layer, i + 1, k + 1),
+                       d = at(layer, i, k + 1);
+        if (layer == 1)
+          plate.triangles.insert(plate.triangles.end(), {{a, d, c}, {a, c, b}});
+        else
+          plate.triangles.insert(plate.triangles.end(), {{a, b, c}, {a, c, d}});
+      }
+  const auto fits = fit_primitives(AabbTree(std::make_shared<const TriangleMesh>(plate)));
+  REQUIRE(fits.ok());
+  CHECK(shape_entry(fits->front().shape.type).name == "box");
+  for (const FittedPrimitive& fit : *fits) CHECK(fit.error.added < 8.5);
+}
+
 TEST_CASE("an open mesh gets a primitive through its surface") {
   ShapeDef def;
   TriangleMesh mesh = mesh_of(def);

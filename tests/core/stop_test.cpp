@@ -2,9 +2,11 @@
 #include "engine/core/stop.hpp"
 
 #include "engine/core/crew.hpp"
+#include "engine/core/watched.hpp"
 
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -32,6 +34,24 @@ TEST_CASE("a request to stop is seen until it is cleared, by the work that it is
   }
   flag.request();
   CHECK_FALSE(stop_requested());
+}
+
+TEST_CASE("work tells how far it is to who watches it, on its own thread, as long as he does") {
+  std::vector<double> seen;
+  const ProgressSink sink = [&](double share) { seen.push_back(share); };
+  tell_progress(0.1);
+  {
+    const Watched watched(&sink);
+    tell_progress(0.2);
+    {
+      const Watched nobody(nullptr);
+      tell_progress(0.3);
+    }
+    std::thread([] { tell_progress(0.4); }).join();
+    tell_progress(0.5);
+  }
+  tell_progress(0.6);
+  CHECK(seen == std::vector<double>{0.2, 0.5});
 }
 
 TEST_CASE("a request can come after a number of looks") {

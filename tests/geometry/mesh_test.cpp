@@ -280,6 +280,56 @@ TEST_CASE("a sliver that closes a T-junction splits its neighbour: closed stays 
   }
 }
 
+TEST_CASE("T-junctions that nothing closes split the side that they lie on: open becomes closed") {
+  // Reference: topology and volume of a box, each face of which was cut into strips of its own
+  // before the corners were welded, so that edges have other points on either side. Moved by less
+  // than the weld distance they close too, by more they do not.
+  Random random(17);
+  const Quat turn = Quat(0.3, 0.5, -0.7, 0.2).normalized();
+  for (const double weld : {0.0, 1e-6}) {
+    for (uint32_t round = 0; round < 20; ++round) {
+      TriangleMesh m;
+      const TriangleMesh box = make_mesh::box(Vec3(0.5, 1, 1.5));
+      size_t points = 0;
+      for (size_t face = 0; face < 6; ++face) {
+        // Of the four corners around, two opposite sides are cut at the same random parts.
+        const Triangle &t = box.triangles[2 * face], &u = box.triangles[2 * face + 1];
+        const auto of_u = [&](uint32_t v) { return v == u[0] || v == u[1] || v == u[2]; };
+        size_t lone = 0;
+        while (of_u(t[lone])) ++lone;
+        const Vec3 a = box.vertices[t[lone]], b = box.vertices[t[(lone + 1) % 3]],
+                   d = box.vertices[t[(lone + 2) % 3]];
+        std::vector<double> cuts{0, 1};
+        for (uint32_t k = random.below(4); k > 0; --k) cuts.push_back(random.uniform());
+        std::sort(cuts.begin(), cuts.end());
+        points += 2 * (cuts.size() - 2);
+        const auto at = [&](const Vec3& p) {
+          m.vertices.push_back(turn * p + 0.2 * weld * draws::in_box(random, 1));
+          return uint32_t(m.vertices.size() - 1);
+        };
+        for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+          const Vec3 p = a + cuts[k] * (b - a), q = a + cuts[k + 1] * (b - a), across = d - a;
+          const uint32_t w = at(p), x = at(q), y = at(q + across), z = at(p + across);
+          m.triangles.insert(m.triangles.end(), {{w, x, y}, {w, y, z}});
+        }
+      }
+      if (weld > 0)
+        CHECK_FALSE([&] {
+          TriangleMesh loose = m;
+          clean_up(loose, {.weld_distance = 1e-9});
+          return build_topology(loose).closed();
+        }());
+      const CleanupReport report = clean_up(m, {.weld_distance = std::max(weld, 1e-14)});
+      CAPTURE(report.text());
+      CHECK(report.split_triangles >= points);
+      CHECK(report.triangle_origin.size() == m.triangles.size());
+      CHECK(build_topology(m).closed_and_oriented());
+      CHECK(build_topology(m).euler_characteristic == 2);
+      CHECK(mesh_integrals(m).mass == doctest::Approx(6).epsilon(1e-12 + 5 * weld));
+    }
+  }
+}
+
 TEST_CASE("a side with hundreds of T-junctions is split at each of them") {
   // Reference: a sixth, the volume of the corner of a cube, one edge of which has a long fan of
   // slivers. The points are exact in binary.
@@ -297,9 +347,13 @@ TEST_CASE("a side with hundreds of T-junctions is split at each of them") {
   m.triangles.erase(m.triangles.begin());
   for (size_t i = 0; i + 1 < chain.size(); ++i) m.triangles.push_back({chain[i], chain[i + 1], c});
   for (size_t i = 1; i + 1 < chain.size(); ++i) m.triangles.push_back({chain[i + 1], chain[i], b});
-  CHECK(clean_up(m).split_triangles == points);
-  CHECK(build_topology(m).closed_and_oriented());
-  CHECK(mesh_integrals(m).mass == doctest::Approx(1 / 6.0).epsilon(1e-12));
+  TriangleMesh open = m;  // without its slivers, which are put in again
+  open.triangles.resize(open.triangles.size() - points);
+  for (TriangleMesh* each : {&m, &open}) {
+    CHECK(clean_up(*each).split_triangles == points);
+    CHECK(build_topology(*each).closed_and_oriented());
+    CHECK(mesh_integrals(*each).mass == doctest::Approx(1 / 6.0).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("a needle folded back upon its neighbour is called that, and welding cures it") {

@@ -57,6 +57,16 @@ TEST_CASE("comparisons and logic give 1 or 0") {
   CHECK(value("2 <= 2") == 1);
 }
 
+TEST_CASE("a condition is made of comparisons alone") {
+  const auto condition = [](const char* text) { return Expression::parse(text)->is_condition(); };
+  for (const char* yes : {"a < 1", "!(a < 1)", "a < 1 && b > 2", "a == b || !(a > 3) && b < 1",
+                          "(a < 1) == (b < 1)", "abs(a) <= max(1, b)"})
+    CHECK_MESSAGE(condition(yes), yes);
+  for (const char* no : {"a", "!a", "a < 1 && 3", "b || a < 1", "(a < 1) + 1", "-(a < 1)",
+                         "abs(a < 1)", "!(a && b)", "a < 1 && !b"})
+    CHECK_MESSAGE(!condition(no), no);
+}
+
 TEST_CASE("functions") {
   CHECK(value("max(min(3, 5), time)") == 3);
   CHECK(value("sqrt(16) + floor(2.7) + ceil(2.1) + round(2.5)") == 12);

@@ -106,9 +106,27 @@ TEST_CASE("pieces are kept by content: the same from the cache, made anew when i
     CHECK(same(cache.pieces(mesh, options).value(), made));
     CHECK(same(cache.pieces(mesh, options).value(), made));
   }
+  // All of a decomposition, exact or not, as it was made.
+  const auto same_whole = [](const ConvexDecomposition& a, const ConvexDecomposition& b) {
+    if (a.pieces.size() != b.pieces.size() || a.cuts != b.cuts || a.missing != b.missing ||
+        a.exact != b.exact || a.hull_volume != b.hull_volume)
+      return false;
+    for (size_t i = 0; i < a.pieces.size(); ++i)
+      if (a.pieces[i].hull.face_vertices != b.pieces[i].hull.face_vertices ||
+          a.pieces[i].hull.half_edge_twin != b.pieces[i].hull.half_edge_twin)
+        return false;
+    return true;
+  };
+  for (int time = 0; time < 2; ++time) {
+    CHECK(same_whole(cache.decomposition(mesh, options).value(),
+                     PieceCache(fs::path()).decomposition(mesh, options).value()));
+    CHECK(same_whole(cache.exact_decomposition(*mesh, {}).value(),
+                     PieceCache(fs::path()).exact_decomposition(*mesh, {}).value()));
+  }
+  CHECK(std::vector<fs::path>(fs::directory_iterator(cache.folder()), {}).size() == 2);
   options.concavity = 0.003;
   CHECK(cache.pieces(mesh, options).ok());
-  CHECK(std::vector<fs::path>(fs::directory_iterator(cache.folder()), {}).size() == 2);
+  CHECK(std::vector<fs::path>(fs::directory_iterator(cache.folder()), {}).size() == 3);
   // A folder that cannot be made costs nothing but time.
   CHECK(same(PieceCache("/dev/null/pieces").pieces(mesh, {.concavity = 0.002}).value(), made));
 }

@@ -124,6 +124,142 @@ TEST_CASE("faults of emitters name line, cause and cure") {
               "emitters.jet.events[0].emitter: ");
 }
 
+TEST_CASE("emitters in each other are a fault where what they emit pushes, at one time") {
+  const auto two = [](const std::string& system, const std::string& a, const std::string& b) {
+    return "\"particles\": {\"p\": {" + system +
+           "}}, \"emitters\": {\"a\": {\"particles\": \"p\", "
+           "\"rate\": 10, \"life\": 1, " +
+           a +
+           "},\n\"b\": {\"particles\": \"p\", \"rate\": 10, "
+           "\"life\": 1, " +
+           b + "}}";
+  };
+  const std::string here = "\"position\": [0, 2, 0]", near = "\"position\": [0.01, 2, 0]",
+                    far = "\"position\": [0.1, 2, 0]";
+  const std::string disc = ", \"shape\": {\"type\": \"disc\", \"radius\": 0.05}";
+  const std::string balls = "\"radius\": 0.02", fast = "\"fast\": true",
+                    dust = "\"collide\": false";
+  const std::string fault = fault_of(two(balls, here, near));
+  CHECK_MESSAGE(
+      fault.find("emitters.b: overlaps the emitter 'a' at (0.01, 2, 0)") != std::string::npos,
+      fault);
+  CHECK(fault_of(two(balls, here + disc, near)).find("overlaps") != std::string::npos);
+  CHECK(fault_of(two("\"fluid\": {}", here, here)).find("overlaps") != std::string::npos);
+  // Side by side, with nothing to push, one after the other, or of things that do not meet.
+  built(two(balls, here, far));
+  built(two(balls, here + disc, far + disc));
+  built(two(fast, here, here));
+  built(two(dust, here, here));
+  built(two(balls, here + ", \"end\": 1", here + ", \"start\": 2"));
+}
+
+TEST_CASE("emitter values have the bounds of their unit") {
+  check_fault("\"particles\": \"dust\", \"rate\": 1, \"life\": 1, \"radius\": 1e9",
+              "emitters.jet.radius: must be <= 1000000 m, got 1000000000 m");
+  check_fault(
+      "\"particles\": \"dust\", \"rate\": 1, \"life\": 1, "
+      "\"mass\": {\"mean\": 2e12}",
+      "emitters.jet.mass: must be <= 1e+12 kg, got 2e+12 kg");
+  check_fault("\"particles\": \"dust\", \"rate\": 1, \"life\": 1, \"speed\": -2e6",
+              "emitters.jet.speed: must be <= 1000000 m/s");
+  const BuiltScene coulomb = built(
+      "\"particles\": {\"ions\": {\"charge\": 1e-9, \"list\": [[0, 0, 0], [1, 0, 0]]}}, "
+      "\"forces\": {\"f\": {\"type\": \"coulomb\"}}");
+  CHECK(coulomb.forces.size() == 1);
+}
+
+TEST_CASE("what particles, emitters and sinks probably do not mean is said, and nothing else") {
+  const std::string ground =
+      "\"bodies\": {\"floor\": {\"type\": \"static\", \"shape\": {\"type\": \"half_space\"}}, "
+      "\"wall\": {\"type\": \"static\", \"position\": [5, 1, 0], \"shape\": {\"type\": \"box\", "
+      "\"size\": [1, 1, 1]}}}, ";
+  const auto says = [&](const std::string& members, const std::string& sentence) {
+    const auto lines = built(ground + members).warnings;
+    INFO(members);
+    std::string all;
+    for (const std::string& line : lines) all += line + "\n";
+    INFO(all);
+    if (sentence.empty()) {
+      CHECK(lines.empty());
+    } else {
+      REQUIRE(lines.size() == 1);
+      CHECK(lines[0].find(sentence) != std::string::npos);
+    }
+  };
+  const auto particles = [](const std::string& keys) { return "\"particles\": {" + keys + "}"; };
+  const std::string list = "\"list\": [[0, 1, 0], [0.2, 1, 0]]";
+  const std::string some = particles("\"p\": {" + list + "}");
+  const auto emitter = [&](const std::string& keys) {
+    return some + ", \"emitters\": {\"e\": {\"particles\": \"p\", \"life\": 1, \"speed\": 1, " +
+           keys + "}}";
+  };
+  const auto water = [&](const std::string& keys) {
+    return particles("\"w\": {\"fluid\": {" + keys +
+                     "}, \"fill\": {\"type\": \"lattice\", "
+                     "\"centre\": [0, 0.5, 0], \"size\": [0.2, 0.2, 0.2], \"spacing\": 0.05}}");
+  };
+  says(some, "");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0]"), "");
+  says(water(""), "");
+  says(particles("\"p\": {\"list\": [[0, 1, 0], [1, 1, 0], [0, 1, 0]]}"),
+       "particles.p: 1 pair of particles begins on one place, the first at (0, 1, 0)");
+  says(
+      particles("\"w\": {\"fluid\": {}, \"fill\": {\"type\": \"lattice\", \"centre\": [0, 0.5, 0], "
+                "\"size\": [0.2, 0.2, 0.2], \"spacing\": 0.05}}, \"x\": {\"fluid\": {}, \"fill\": "
+                "{\"type\": \"lattice\", \"centre\": [0, 0.5, 0], \"size\": [0.2, 0.2, 0.2], "
+                "\"spacing\": 0.05}}"),
+      "particles.w: 125 pairs of particles begin on one place with 'x'");
+  says(emitter("\"rate\": 10, \"position\": [5, 1, 0]"),
+       "emitters.e: what leaves it begins inside the body 'wall' at (5, 1, 0)");
+  says(some +
+           ", \"emitters\": {\"e\": {\"body\": \"wall\", \"rate\": 1, \"at_most\": 3, "
+           "\"position\": [5, 1, 0]}}",
+       "emitters.e: what leaves it begins inside the body 'wall'");
+  says(emitter("\"position\": [0, 3, 0]"), "emitters.e: nothing comes from it");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0], \"direction\": \"outward\""),
+       "emitters.e.direction: has no effect");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0], \"colours\": [\"red\"], "
+               "\"colour_over_life\": [\"red\", \"blue\"]"),
+       "emitters.e.colours: has no effect");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0], \"opacity_over_life\": [1, 0]"),
+       "emitters.e.opacity_over_life: has no effect");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0], \"size_over_life\": []"),
+       "emitters.e.size_over_life: has no effect: the list is empty");
+  says(some + ", \"sinks\": {\"s\": {\"type\": \"box\", \"size\": [100, 100, 100]}}",
+       "sinks.s: all that it takes is in it at the start");
+  says(emitter("\"rate\": 10, \"position\": [0, 3, 0]") +
+           ", \"sinks\": {\"s\": {\"type\": \"sphere\", \"radius\": 0.1, \"position\": [0, 3, 0]}}",
+       "sinks.s: takes at once what comes from the emitter 'e'");
+  says(particles("\"p\": {" + list + ", \"look\": {\"style\": \"smoke\", \"clarity\": 1}}"),
+       "particles.p.look.clarity: has no effect");
+  says(particles("\"p\": {\"list\": [[0, 1, 0]], \"periodic_box\": {\"centre\": [0, 1, 0], "
+                 "\"size\": [0.01, 0.01, 0.01]}}"),
+       "less than a particle");
+  says(particles("\"p\": {" + list +
+                 ", \"periodic_box\": {\"centre\": [9, 1, 0], "
+                 "\"size\": [1, 1, 1]}}"),
+       "2 of 2 particles begin outside");
+  says(water("\"sound_speed\": 100"), "particles.w.fluid.sound_speed: has no effect");
+  says(water("\"solver\": \"wcsph\", \"density_error\": 0.001"),
+       "particles.w.fluid.density_error: has no effect");
+  says(water("\"solver\": \"wcsph\", \"sound_speed\": 0.01"),
+       "particles.w.fluid.sound_speed: 0.01 m/s is less than ten times");
+}
+
+TEST_CASE("a fluid that would fall for ever is a fault, unless it is meant to") {
+  const auto drop = [](const std::string& keys) {
+    return "\"particles\": {\"w\": {" + keys +
+           "\"fluid\": {}, \"fill\": {\"type\": \"lattice\", "
+           "\"size\": [0.2, 0.2, 0.2], \"spacing\": 0.05}}}";
+  };
+  const std::string fault = fault_of(drop(""));
+  CHECK_MESSAGE(fault.find("particles.w: nothing contains this fluid") != std::string::npos, fault);
+  CHECK(fault.find("place bodies") != std::string::npos);
+  built(drop("\"life\": 2, "));
+  built(drop("\"gravity_scale\": 0, "));
+  built("\"settings\": {\"gravity\": [0, 0, 0]}, " + drop(""));
+}
+
 TEST_CASE("crowds by events are counted before the run, and collisions need to be looked for") {
   const auto two = [](const std::string& event, const std::string& dust) {
     return "\"particles\": {\"dust\": {" + dust +

@@ -20,6 +20,8 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
 
 using namespace tumble;
 namespace fs = std::filesystem;
@@ -246,6 +248,64 @@ TEST_CASE("fields and fits are kept by content: the same from the cache, anew wh
   }
   CHECK(fields.field(mesh, 0.03).ok());
   CHECK(std::vector<fs::path>(fs::directory_iterator(fields.folder()), {}).size() == 2);
+}
+
+TEST_CASE("a folder or a pipe in the place of a cache entry costs nothing but time") {
+  // References: what is made without a cache. A pipe that nobody writes to would be read for ever.
+  const TempFolder folder;
+  const auto mesh = shipped_mesh("star_prism.obj");
+  const FitCache fits(folder.path() / "fits");
+  const FittedPrimitive fit = fits.fit(mesh).value();
+  const std::vector<fs::path> files(fs::directory_iterator(fits.folder()), {});
+  REQUIRE(files.size() == 1);
+  fs::remove(files[0]);
+  fs::create_directory(files[0]);
+  CHECK(fits.fit(mesh).value().pose.x == fit.pose.x);
+  CHECK(fs::is_directory(files[0]));
+  fs::remove(files[0]);
+  REQUIRE(::mkfifo(files[0].c_str(), 0600) == 0);
+  CHECK(fits.fit(mesh).value().pose.x == fit.pose.x);
+}
+
+TEST_CASE("hulls and pieces say how far they are from their mesh, unless they are it") {
+  // References: a star fills only part of its hull, by the volumes of both; a box is its own.
+  const TempFolder folder;
+  const auto warnings = [](const std::string& mesh, const std::string& shape) {
+    return with_modes(mesh + R"("bodies": {"b": {"shape": )" + shape + "}}").warnings;
+  };
+  const std::string star = R"("meshes": {"m": "star_prism.obj"}, )";
+  std::string box = box_file(folder, {0.4, 0.3, 0.2});
+  box.replace(box.find("\"box\""), 5, "\"m\"");
+  const auto mesh = shipped_mesh("star_prism.obj");
+  ShapeDef hull_def;
+  hull_def.type = ShapeType::convex_hull;
+  hull_def.mesh = mesh;
+  const double ratio =
+      make_shape(hull_def).value()->mass_properties().value().mass / mesh_mass(*mesh).value().mass;
+  REQUIRE(ratio > 1.2);
+  const std::string hulls[] = {R"({"type": "mesh", "mesh": "m", "mode": "convex_hull"})",
+                               R"({"type": "convex_hull", "mesh": "m"})"};
+  for (const std::string& shape : hulls) {
+    INFO(shape);
+    const auto of_star = warnings(star, shape);
+    REQUIRE(of_star.size() == 1);
+    INFO(of_star[0]);
+    CHECK(of_star[0].starts_with("bodies.b.shape: approximate: touches as its convex hull"));
+    CHECK(of_star[0].find(fmt::format("{:.3g} times the mesh's volume", ratio)) !=
+          std::string::npos);
+    CHECK(warnings(box, shape).empty());
+  }
+  const std::string pieces =
+      R"({"type": "mesh", "mesh": "m", "mode": "decomposition", "pieces": 1})";
+  const auto of_star = warnings(star, pieces);
+  REQUIRE(of_star.size() == 1);
+  CHECK(of_star[0].find("approximate: touches as convex pieces (") != std::string::npos);
+  CHECK(warnings(box, pieces).empty());
+  const std::string declared =
+      R"("meshes": {"m": {"file": "star_prism.obj", "mode": "convex_hull"}}, )";
+  const auto of_mesh = warnings(declared, R"({"type": "mesh", "mesh": "m"})");
+  REQUIRE(of_mesh.size() == 1);
+  CHECK(of_mesh[0].starts_with("meshes.m: approximate"));
 }
 
 TEST_CASE("representations side by side: errors of a box and of a star, refusals of an open mesh") {

@@ -235,5 +235,6 @@ TEST_CASE("nesting and size have limits") {
 TEST_CASE("a file that is not there, and a folder") {
   CHECK(load_scene("/no/such/file.json").faults.at(0).text() ==
         "/no/such/file.json: there is no such file");
-  CHECK(load_scene(TUMBLE_SOURCE_DIR).faults.at(0).message == "this is not a file");
+  CHECK(load_scene(TUMBLE_SOURCE_DIR).faults.at(0).message ==
+        "this is a folder, a device or a pipe, not a file");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -62,7 +63,9 @@ const Option& Option::natural() const {
       [](std::string& text) {
         const bool digits =
             !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string{} : "'" + text + "' is not a whole number of 0 or more";
+        if (!digits) return "'" + text + "' is not a whole number of 0 or more";
+        if (!number_of<uint64_t>(text)) return "'" + text + "' is more than any count may be";
+        return std::string{};
       },
       ""));
   return *this;
@@ -86,6 +89,25 @@ const Option& Option::one_of(std::vector<std::string> names) const {
         return known ? std::string{} : fmt::format("'{}' is not one of {}", text, list);
       },
       "one of " + list));
+  return *this;
+}
+
+const Option& Option::not_empty() const {
+  option_->check(CLI::Validator(
+      [](std::string& text) { return text.empty() ? std::string("is empty") : std::string{}; },
+      ""));
+  return *this;
+}
+
+const Option& Option::ends_in(std::vector<std::string> endings) const {
+  option_->check(CLI::Validator(
+      [endings = std::move(endings)](std::string& text) {
+        const std::string ending = std::filesystem::path(text).extension().string();
+        const bool known = std::find(endings.begin(), endings.end(), ending) != endings.end();
+        return known ? std::string{}
+                     : fmt::format("'{}' does not end in {}", text, fmt::join(endings, ", "));
+      },
+      ""));
   return *this;
 }
 

@@ -22,8 +22,10 @@ class Option {
   const Option& between(int least, int greatest) const;  ///< a whole number, bounds included
   const Option& between(double least, double greatest) const;
   const Option& one_of(std::vector<std::string> names) const;
-  const Option& needs(const Option& other) const;     ///< is refused without the other
-  const Option& excludes(const Option& other) const;  ///< is refused beside the other
+  const Option& not_empty() const;                                ///< of a text
+  const Option& ends_in(std::vector<std::string> endings) const;  ///< of a file: .obj, .png ...
+  const Option& needs(const Option& other) const;                 ///< is refused without the other
+  const Option& excludes(const Option& other) const;              ///< is refused beside the other
 
  private:
   CLI::Option* option_;

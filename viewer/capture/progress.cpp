@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -41,6 +42,31 @@ void Progress::show(uint64_t done) {
     fmt::print(stderr, "{}\n", line);
   std::fflush(stderr);
   open_ = terminal_;
+}
+
+WorkProgress::WorkProgress(std::string what)
+    : what_(std::move(what)),
+      terminal_(::isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      last_(start_) {}
+
+void WorkProgress::show(double share, const std::string& more) {
+  const auto now = Clock::now();
+  if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.1 : 5.0)) return;
+  last_ = now;
+  const double spent = std::chrono::duration<double>(now - start_).count();
+  std::string line = what_;
+  if (!more.empty()) line += ", " + more;
+  line += fmt::format(", {:.0f} %", 100 * share);
+  if (share > 0) line += fmt::format(", about {} left", time_text(spent * (1 - share) / share));
+  fmt::print(stderr, "{}", terminal_ ? fmt::format("\r{:<70}", line) : line + "\n");
+  std::fflush(stderr);
+  open_ = terminal_;
+}
+
+void WorkProgress::finish() {
+  if (open_) fmt::print(stderr, "\n");
+  open_ = false;
 }
 
 void Progress::finish() {

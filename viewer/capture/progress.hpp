@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace tumble {
 
@@ -23,6 +24,28 @@ class Progress {
   bool terminal_;
   bool open_ = false;
   uint64_t total_, first_;
+  Clock::time_point start_, last_;
+};
+
+/// The same of work that knows which share of it is done: what it does, and the time left by what
+/// it took so far.
+class WorkProgress {
+ public:
+  explicit WorkProgress(std::string what);
+  ~WorkProgress() { finish(); }
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
+
+  /// `share` from 0 to 1; `more`: what else there is to say of it.
+  void show(double share, const std::string& more = {});
+  /// Ends the rewritten line.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool terminal_;
+  bool open_ = false;
   Clock::time_point start_, last_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/collision/fitting/least_squares_fit.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/watched.hpp"
 #include "engine/geometry/constructions/surface_samples.hpp"
 #include "engine/geometry/hierarchy/fit_box.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
@@ -137,7 +138,9 @@ Result<std::vector<FittedPrimitive>> fit_primitives(const Hierarchy& surface) {
   const Beginnings from(through_hull, hull_mesh.vertices, box.centre());
 
   std::vector<FittedPrimitive> out;
-  for (const PrimitiveKind& kind : primitive_kinds()) {
+  for (size_t k = 0; k < primitive_kinds().size(); ++k) {
+    const PrimitiveKind& kind = primitive_kinds()[k];
+    tell_progress(double(k) / double(primitive_kinds().size()));
     FittedPrimitive best;
     std::vector<PlacedShape> best_shape;
     for (const auto* points : {&through_mesh, &through_hull})
@@ -169,6 +172,10 @@ Result<std::vector<FittedPrimitive>> fit_primitives(const Hierarchy& surface) {
               out.begin() + std::ptrdiff_t(first) + 1);
   std::stable_sort(out.begin() + 1, out.end(), [](const auto& a, const auto& b) {
     return a.error.larger() < b.error.larger();
+  });
+  // What reaches farther outside than the mesh is large stands for something else.
+  std::erase_if(out, [&, best = out.front().error.added](const FittedPrimitive& fit) {
+    return fit.error.added > std::max(best, 2 * scale);
   });
   return out;
 }

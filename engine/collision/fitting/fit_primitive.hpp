@@ -23,7 +23,8 @@ struct FittedPrimitive {
 /// outside the mesh and how far the mesh stands out of it. Each surface runs nearest, in the mean
 /// square, to points of the mesh's surface or of its hull's, from axes of the coordinates, of the
 /// spread of the points, and of a tight box. Of fits that err alike to a hundredth the simpler one
-/// comes first. Errors: the mesh is empty or flat; cancelled.
+/// comes first. Left out are those, but for the best, that reach farther outside the mesh than its
+/// diagonal. Errors: the mesh is empty or flat; cancelled.
 Result<std::vector<FittedPrimitive>> fit_primitives(const Hierarchy& surface);
 
 /// The best of them.

@@ -1,3 +1,4 @@
+#include "engine/core/stop.hpp"
 #include "engine/geometry/constructions/radical_inverse.hpp"
 #include "engine/geometry/constructions/surface_samples.hpp"
 #include "engine/geometry/distance_field/distance_field.hpp"
@@ -32,7 +33,7 @@ FieldError measure_field_error(const DistanceField& field, const Hierarchy& surf
   const TriangleMesh& mesh = surface.mesh();
   const SurfaceSamples on_surface(mesh);
   double squares = 0;
-  for (size_t n = 1; n <= samples; ++n) {
+  for (size_t n = 1; n <= samples && !stop_requested(); ++n) {
     // On the surface by area, then off it along the normal.
     const auto [on, t] = on_surface(n);
     const Vec3 p = on + (2 * radical_inverse(n, 7) - 1) * field.band() * face_normal(mesh, t);

@@ -1,5 +1,6 @@
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/watched.hpp"
 #include "engine/geometry/distance_field/distance_field.hpp"
 #include "engine/geometry/distance_field/narrow_band.hpp"
 #include "engine/geometry/distance_field/scan_lines.hpp"
@@ -15,6 +16,8 @@
 namespace tumble {
 namespace {
 
+/// What is done of the time that a build takes, about, after the signs and after the fine nodes.
+constexpr double signs_done = 0.1, blocks_done = 0.8;
 constexpr int cells = FieldLayout::cells_along, nodes = FieldLayout::nodes_along;
 const double sqrt3 = std::sqrt(3.0);
 /// Of what is interpolated between the corners of a cube, over its side: the mean of the distances
@@ -69,7 +72,9 @@ class DistanceFieldBuilder {
     if (Status s = check_options(options_); !s) return s.error();
     if (Status s = check_surface(mesh_); !s) return s.error();
     if (Status s = lay_out(); !s) return s.error();
+    tell_progress(0);
     const ScanLines lines(mesh_, field_.layout_, options_.crew);
+    if (stop_requested()) return stopped_error();
     const BlockTriangles near =
         triangles_near_blocks(mesh_, field_.layout_, field_.node_range_, options_.crew);
     if (stop_requested()) return stopped_error();
@@ -131,7 +136,7 @@ class DistanceFieldBuilder {
     std::vector<int16_t> all_short(is_short_ ? near.blocks.size() * FieldLayout::nodes_of_block
                                              : 0);
     std::vector<char> kept(near.blocks.size(), 0);
-    each(near.blocks.size(), [&](size_t n) {
+    each(near.blocks.size(), {signs_done, blocks_done}, [&](size_t n) {
       BlockDistances distances;
       measure_block(mesh_, layout, near.blocks[n], near.of(n), field_.node_range_, distances);
       const double least = *std::min_element(distances.begin(), distances.end());
@@ -199,7 +204,7 @@ class DistanceFieldBuilder {
     const FieldLayout& layout = field_.layout_;
     field_.corners_.resize(layout.corner_count());
     const size_t rows = size_t(layout.blocks[1] + 1) * size_t(layout.blocks[2] + 1);
-    each(rows, [&](size_t row) {
+    each(rows, {blocks_done, 1}, [&](size_t row) {
       const int y = int(row % size_t(layout.blocks[1] + 1)),
                 z = int(row / size_t(layout.blocks[1] + 1));
       std::vector<int> turns(size_t(layout.blocks[0]) + 1);
@@ -235,10 +240,18 @@ class DistanceFieldBuilder {
     r.overlapped_nodes = overlapped_;
   }
 
+  /// From which share of the whole work to which a loop goes.
+  struct Part {
+    double from, to;
+  };
+
   template <class F>
-  void each(size_t n, const F& f) const {
+  void each(size_t n, Part part, const F& f) const {
+    std::atomic<size_t> done{0};
     const auto unless_stopped = [&](size_t i) {
-      if (!stop_requested()) f(i);
+      if (stop_requested()) return;
+      f(i);
+      tell_progress(part.from + (part.to - part.from) * double(++done) / double(n));
     };
     if (options_.crew) {
       options_.crew->each(n, unless_stopped);

@@ -169,6 +169,7 @@ BlockTriangles triangles_near_blocks(const TriangleMesh& mesh, const FieldLayout
     for (size_t t = first; t < last && !stop_requested(); ++t)
       near_blocks(MeasuredTriangle(mesh, uint32_t(t)), uint32_t(t), layout, range, found[chunk]);
   });
+  if (stop_requested()) return {};
   // Chunks hold their triangles in order: counting keeps it.
   std::vector<size_t> start(layout.block_count() + 1, 0);
   for (const auto& part : found)

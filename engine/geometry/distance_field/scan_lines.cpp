@@ -63,6 +63,7 @@ ScanLines::ScanLines(const TriangleMesh& mesh, const FieldLayout& layout, Crew* 
       cross_rows(mesh, t, layout, found[chunk]);
   });
   first_.assign(rows + 1, 0);
+  if (stop_requested()) return;
   for (const auto& part : found)
     for (const RowCrossing& c : part) ++first_[c.row + 1];
   for (size_t r = 0; r < rows; ++r) first_[r + 1] += first_[r];

@@ -73,6 +73,10 @@ struct Maker {
     const BodyShapeDef whole = body_shape(s, body);
     const auto* d = std::get_if<MeshShapeDescription>(&s.kind);
     if (!d) {
+      const auto* hull = std::get_if<ConvexHullShapeDescription>(&s.kind);
+      if (hull && !hull->mesh.empty() && whole.shape.mesh)
+        if (const std::string note = hull_note(whole.shape.mesh); !note.empty())
+          warnings.push_back(path + ": " + note);
       out.shapes.push_back(whole);
       return true;
     }

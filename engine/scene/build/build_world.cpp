@@ -4,6 +4,7 @@
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/coupling_faults.hpp"
 #include "engine/scene/build/emitter_defs.hpp"
+#include "engine/scene/build/emitter_overlaps.hpp"
 #include "engine/scene/build/fluid_start.hpp"
 #include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/build/joint_defs.hpp"
@@ -93,7 +94,11 @@ class Builder {
       budget -= double(def->particles.size());
       if (def->fluid) {
         apply();
-        fit_fluid(*built_.world, built_.bodies, *def, built_.warnings);
+        const Status held = fit_fluid(*built_.world, built_.bodies, *def, built_.warnings);
+        if (!held) {
+          fault(held.error().place, held.error().message + " (" + held.error().cure + ")");
+          continue;
+        }
       }
       const auto id = built_.world->create_particles(std::move(*def));
       if (!id)
@@ -127,6 +132,17 @@ class Builder {
       defs.push_back(std::move(*def));
     }
     if (defs.size() == order->size()) check_crowds(*order, defs);
+  }
+
+  /// Of emitters that there are: apply() comes before.
+  void check_emitter_overlaps() {
+    if (!built_.world) return;
+    for (const EmitterOverlap& o : emitter_overlaps(built_))
+      fault("emitters." + o.second,
+            fmt::format("overlaps the emitter '{}' at ({:.4g}, {:.4g}, {:.4g}): what they emit "
+                        "would begin in each other (place them apart, let them emit at other "
+                        "times, or set \"collide\": false)",
+                        o.first, o.place.x(), o.place.y(), o.place.z()));
   }
 
   void add_sinks() {
@@ -387,6 +403,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_neighbour_springs();
   builder.tie_weaves();
   builder.apply();
+  builder.check_emitter_overlaps();
   builder.add_microscope();
   if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();

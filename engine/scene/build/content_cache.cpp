@@ -4,7 +4,7 @@
 #include "engine/scene/resources.hpp"
 
 #include <fstream>
-#include <iterator>
+#include <vector>
 
 #include <unistd.h>
 
@@ -23,11 +23,16 @@ fs::path ContentCache::file_of(std::span<const std::byte> key) const {
 
 std::optional<Bytes> ContentCache::read(std::span<const std::byte> key) const {
   if (folder_.empty()) return std::nullopt;
-  std::ifstream in(file_of(key), std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
+  const fs::path file = file_of(key);
+  // A folder or pipe of that name is no entry: reading it would fail, or wait for ever.
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  const auto size = fs::file_size(file, error);
+  if (error || size < sizeof(uint64_t)) return std::nullopt;
+  std::vector<char> text(size);
+  if (!in.read(text.data(), std::streamsize(text.size()))) return std::nullopt;
   const auto bytes = std::as_bytes(std::span(text));
-  if (bytes.size() < sizeof(uint64_t)) return std::nullopt;
   const auto content = bytes.subspan(sizeof(uint64_t));
   if (ByteReader(bytes).get<uint64_t>() != hash_bytes(content)) return std::nullopt;
   return Bytes(content.begin(), content.end());

@@ -11,7 +11,7 @@ constexpr std::string_view field_section = "distance field";
 }  // namespace
 
 Result<std::shared_ptr<const DistanceField>> FieldCache::field(
-    const std::shared_ptr<const TriangleMesh>& mesh, double cell) const {
+    const std::shared_ptr<const TriangleMesh>& mesh, double cell, Crew* crew) const {
   ByteWriter key;
   key.value(field_format);
   key.value(field_version);
@@ -25,6 +25,7 @@ Result<std::shared_ptr<const DistanceField>> FieldCache::field(
   }
   DistanceFieldOptions options;
   options.cell = cell;
+  options.crew = crew;
   auto made = make_distance_field(AabbTree(mesh), options);
   if (!made) return made.error();
   ByteWriter out;

@@ -12,9 +12,9 @@ class FieldCache {
 
   const std::filesystem::path& folder() const { return cache_.folder(); }
   /// The field of a mesh with cells of this side: from the cache, or made and put there. Errors are
-  /// those of make_distance_field().
+  /// those of make_distance_field(). The field is the same with any crew or none.
   Result<std::shared_ptr<const DistanceField>> field(
-      const std::shared_ptr<const TriangleMesh>& mesh, double cell) const;
+      const std::shared_ptr<const TriangleMesh>& mesh, double cell, Crew* crew = nullptr) const;
 
  private:
   ContentCache cache_;

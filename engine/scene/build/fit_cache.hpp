@@ -11,8 +11,10 @@ class FitCache {
   explicit FitCache(std::filesystem::path folder) : cache_(std::move(folder), ".fit") {}
 
   const std::filesystem::path& folder() const { return cache_.folder(); }
-  /// The best primitive of a mesh: from the cache, or made and put there. Errors are those of
-  /// fit_primitive().
+  /// The primitives of a mesh, the best first: from the cache, or made and put there. Errors are
+  /// those of fit_primitives().
+  Result<std::vector<FittedPrimitive>> fits(const std::shared_ptr<const TriangleMesh>& mesh) const;
+  /// The best of them.
   Result<FittedPrimitive> fit(const std::shared_ptr<const TriangleMesh>& mesh) const;
 
  private:

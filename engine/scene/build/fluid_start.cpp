@@ -5,6 +5,7 @@
 #include "engine/math/det/det.hpp"
 #include "engine/world/world.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,15 @@ namespace {
 
 /// Of the spacing: particles of a lattice begin half of it from the walls [-].
 constexpr double start_clearance = 0.25;
+
+bool falls(const World& world, const ParticleSystemDef& def) {
+  return world.settings().gravity.norm() * std::fabs(def.gravity_scale) > 0;
+}
+
+bool ends(const ParticleSystemDef& def) {
+  return std::ranges::all_of(def.particles,
+                             [](const ParticleDef& p) { return std::isfinite(p.life); });
+}
 
 bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
   Aabb fluid;
@@ -31,17 +41,18 @@ bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
 
 }  // namespace
 
-void fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
-               ParticleSystemDef& def, std::vector<std::string>& warnings) {
-  if (def.particles.empty()) return;
+Status fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
+                 ParticleSystemDef& def, std::vector<std::string>& warnings) {
+  if (def.particles.empty()) return {};
   std::vector<FluidWall> walls;
   for (const auto& [name, id] : bodies)
     if (const RigidBody* b = world.body(id))
       for (const BodyShape& s : b->shapes) walls.push_back({s.shape.get(), b->pose * s.pose, 0});
-  if (!contained(def, walls))
-    warnings.push_back(fmt::format(
-        "particles.{}: nothing contains this fluid; it will fall (place bodies about it)",
-        def.name));
+  if (falls(world, def) && !ends(def) && !contained(def, walls))
+    return Error{ErrorCode::invalid_argument, "nothing contains this fluid: it would fall for ever",
+                 "particles." + def.name,
+                 "place bodies about or below it; a drop that is to fall has a \"life\" [s] or "
+                 "\"gravity_scale\": 0"};
   std::vector<Vec3> x;
   double mass = 0;
   for (const ParticleDef& p : def.particles) {
@@ -59,6 +70,7 @@ void fit_fluid(const World& world, const std::map<std::string, BodyId, std::less
     warnings.push_back(
         fmt::format("particles.{}: {} of {} particles would begin in bodies and were left out",
                     def.name, gone, inside.size()));
+  return {};
 }
 
 }  // namespace tumble

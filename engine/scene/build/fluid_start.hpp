@@ -11,9 +11,10 @@ namespace tumble {
 class World;
 
 /// Takes the particles out of a fluid that would begin in bodies, or nearer to them than a quarter
-/// of their spacing, and says how many; warns of a fluid that nothing is near. `bodies` are those
-/// of the world, which has applied its commands.
-void fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
-               ParticleSystemDef& def, std::vector<std::string>& warnings);
+/// of their spacing, and says how many. `bodies` are those of the world, which has applied its
+/// commands. The error of a fluid that would fall for ever says how to hold it: no body is below or
+/// beside it, gravity pulls it, and its particles have no end of life.
+Status fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
+                 ParticleSystemDef& def, std::vector<std::string>& warnings);
 
 }  // namespace tumble

@@ -143,7 +143,9 @@ Result<MadeSystem> make_system(World& world, const SceneDescription& parts, cons
   auto woven = add_weaves(name, d, max_particles, *lent, *def);
   if (!woven) return woven.error();
   std::vector<std::string> warnings;
-  if (def->fluid) fit_fluid(world, lent->bodies, *def, warnings);
+  if (def->fluid)
+    if (const Status held = fit_fluid(world, lent->bodies, *def, warnings); !held)
+      warnings.push_back(held.error().text());
   return MadeSystem{*std::move(def), *std::move(woven)};
 }
 

@@ -1,5 +1,9 @@
 #include "engine/scene/build/mesh_parts.hpp"
 
+#include "engine/collision/fitting/solid_error.hpp"
+#include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/geometry/mass_properties/mass_properties.hpp"
+#include "engine/geometry/mesh_topology.hpp"
 #include "engine/scene/build/field_cache.hpp"
 #include "engine/scene/build/fit_cache.hpp"
 #include "engine/scene/build/piece_cache.hpp"
@@ -17,6 +21,14 @@ ShapeDef of_mesh(ShapeType type, std::shared_ptr<const TriangleMesh> mesh) {
   return out;
 }
 
+/// Below this part of a mesh's diagonal an error is that of the six digits to which files are
+/// written [-].
+constexpr double as_written = 2e-6;
+
+bool negligible(double error, const TriangleMesh& mesh) {
+  return error <= as_written * bounds(mesh).extent().norm();
+}
+
 Result<MeshParts> convex_pieces(const std::shared_ptr<const TriangleMesh>& mesh, MeshParts out) {
   ApproximateDecompositionOptions options;
   options.concavity = out.how.concavity;
@@ -24,10 +36,13 @@ Result<MeshParts> convex_pieces(const std::shared_ptr<const TriangleMesh>& mesh,
   const auto made = PieceCache().pieces(mesh, options);
   if (!made) return made.error();
   out.how.concavity = made->concavity;
-  if (!made->bound_met)
-    out.note =
-        fmt::format("{} pieces reach {:.3g} m outside the mesh; a concavity of {:.3g} m takes more",
-                    made->pieces.size(), made->added, made->concavity);
+  if (!negligible(std::max(made->added, made->missing), *mesh))
+    out.note = fmt::format(
+        "approximate: touches as convex pieces ({}), which reach {:.3g} m outside the mesh and "
+        "leave {:.3g} m of it out{}",
+        made->pieces.size(), made->added, made->missing,
+        made->bound_met ? ""
+                        : fmt::format("; a concavity of {:.3g} m takes more", made->concavity));
   for (const MeshPieces::Piece& p : made->pieces) {
     auto corners = std::make_shared<TriangleMesh>();
     corners->vertices = p.vertices;
@@ -73,6 +88,25 @@ Result<MeshParts> fitted_primitive(const std::shared_ptr<const TriangleMesh>& me
 
 }  // namespace
 
+std::string hull_note(const std::shared_ptr<const TriangleMesh>& mesh) {
+  const auto hull = make_shape(of_mesh(ShapeType::convex_hull, mesh));
+  if (!hull) return {};
+  const bool closed = build_topology(*mesh).closed_and_oriented();
+  const auto of_hull = (*hull)->mass_properties();
+  const auto volume = closed ? mesh_mass(*mesh) : Result<MassProperties>(Error{});
+  const double more = of_hull && volume && volume->mass > 0 ? of_hull->mass / volume->mass : 0;
+  // Without more volume there is nothing outside, and nothing to sample.
+  constexpr double same_volume = 1e-9;
+  if (more > 0 && more < 1 + same_volume) return {};
+  const PlacedShape placed{*hull, {}};
+  const SolidError error = solid_error({&placed, 1}, AabbTree(mesh), closed, 2000);
+  if (negligible(error.added, *mesh)) return {};
+  return fmt::format(
+      "approximate: touches as its convex hull, which reaches {:.3g} m outside the mesh; mass and "
+      "inertia, unless given, are the hull's{}",
+      error.added, more > 0 ? fmt::format(", {:.3g} times the mesh's volume", more) : "");
+}
+
 Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
                              const MeshRepresentation& how) {
   MeshParts out;
@@ -85,6 +119,7 @@ Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
     case MeshMode::fit:
       return fitted_primitive(mesh, std::move(out));
     case MeshMode::convex_hull:
+      out.note = hull_note(mesh);
       out.parts.push_back({of_mesh(ShapeType::convex_hull, mesh), {}, 1});
       break;
     case MeshMode::triangle_mesh:

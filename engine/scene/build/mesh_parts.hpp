@@ -19,13 +19,17 @@ struct MeshPart {
 struct MeshParts {
   MeshRepresentation how;  ///< with the values that were taken where none were asked for
   std::vector<MeshPart> parts;
-  std::string note;  ///< what is approximate about them and by how much; "": nothing, or as asked
+  std::string note;  ///< what is approximate about them and by how much; "": nothing
 };
 
 /// From the caches, or made anew. Errors: a mesh that is not closed has no pieces and no field; a
 /// flat one has no hull, pieces or primitive; cancelled (engine/core/stop.hpp).
 Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
                              const MeshRepresentation& how);
+
+/// What is approximate about the hull of a mesh in its place, and by how much: how far it reaches
+/// outside, and what that does to the mass. "" where the mesh is convex, or has no hull.
+std::string hull_note(const std::shared_ptr<const TriangleMesh>& mesh);
 
 /// Appends the shapes that stand for a mesh: `whole` has its pose in the body frame and its
 /// material.

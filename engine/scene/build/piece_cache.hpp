@@ -12,7 +12,8 @@ struct MeshPieces {
     double solid = 0;            ///< of the part of the mesh that it stands for [m^3]
   };
   std::vector<Piece> pieces;
-  double added = 0;      ///< how far they reach outside the mesh, as sampled [m]
+  /// How far they reach outside the mesh, and how far it stands out of them, as sampled [m].
+  double added = 0, missing = 0;
   double concavity = 0;  ///< the bound [m]
   bool bound_met = true;
 };
@@ -24,6 +25,12 @@ class PieceCache {
   explicit PieceCache(std::filesystem::path folder) : cache_(std::move(folder), ".pieces") {}
 
   const std::filesystem::path& folder() const { return cache_.folder(); }
+  /// All of a decomposition: from the cache, or made and put there. Errors are those of
+  /// decompose_approximately(), and of decompose_exactly().
+  Result<ConvexDecomposition> decomposition(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            const ApproximateDecompositionOptions& options) const;
+  Result<ConvexDecomposition> exact_decomposition(const TriangleMesh& mesh,
+                                                  const ExactDecompositionOptions& options) const;
   /// The pieces of a mesh: from the cache, or made and put there. Errors are those of
   /// decompose_approximately().
   Result<MeshPieces> pieces(const std::shared_ptr<const TriangleMesh>& mesh,

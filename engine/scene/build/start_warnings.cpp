@@ -1,7 +1,9 @@
 #include "engine/scene/build/start_warnings.hpp"
 
+#include "engine/scene/build/effect_warnings.hpp"
 #include "engine/scene/build/joint_starts.hpp"
 #include "engine/scene/build/pair_limits.hpp"
+#include "engine/scene/build/particle_warnings.hpp"
 #include "engine/scene/build/sentences.hpp"
 #include "engine/scene/build/spring_limits.hpp"
 #include "engine/world/world.hpp"
@@ -142,6 +144,8 @@ std::vector<std::string> start_warnings(const BuiltScene& built) {
   for (std::string& line : spring_limit_warnings(built)) out.push_back(std::move(line));
   for (std::string& line : pair_limit_warnings(built)) out.push_back(std::move(line));
   look_at_bodies(built, out);
+  for (std::string& line : particle_warnings(built)) out.push_back(std::move(line));
+  for (std::string& line : effect_warnings(built)) out.push_back(std::move(line));
   return out;
 }
 

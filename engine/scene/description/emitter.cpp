@@ -1,5 +1,8 @@
 #include "engine/scene/description/emitter.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -13,6 +16,16 @@ void check_positive(const std::optional<RandomNumberDescription>& d, const char*
   else
     complaints.add(key, fmt::format("must be > 0 {0}, but with this spread it may be {1:.6g} {0}",
                                     unit, d->number.least()));
+}
+
+/// Neither a value nor the farthest that the spread allows may be larger.
+void check_most(const std::optional<RandomNumberDescription>& d, const char* key, const char* unit,
+                double most, Complaints& complaints) {
+  if (!d) return;
+  const double largest = std::max(std::fabs(d->number.most()), std::fabs(d->number.least()));
+  if (largest > most)
+    complaints.add(key,
+                   fmt::format("must be <= {0:.12g} {1}, got {2:.12g} {1}", most, unit, largest));
 }
 
 /// Keys that mean nothing for what it emits.
@@ -39,6 +52,11 @@ void EmitterDescription::check(const EmitterDescription& d, Complaints& complain
   check_positive(d.life, "life", "s", complaints);
   check_positive(d.mass, "mass", "kg", complaints);
   check_positive(d.radius, "radius", "m", complaints);
+  check_most(d.life, "life", "s", 1e9, complaints);
+  check_most(d.mass, "mass", "kg", 1e12, complaints);
+  check_most(d.radius, "radius", "m", 1e6, complaints);
+  check_most(d.speed, "speed", "m/s", 1e6, complaints);
+  check_most(d.spin, "spin", "rad/s", 1e6, complaints);
   if (d.end && !(*d.end > d.start)) complaints.add("end", "must be after start");
   if (!d.life) {
     if (!d.size_over_life.empty()) complaints.add("size_over_life", "needs a life");

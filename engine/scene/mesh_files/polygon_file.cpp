@@ -10,8 +10,22 @@ namespace {
 constexpr uintmax_t most_bytes = uintmax_t{1} << 30;
 }
 
+std::string printable(std::string_view text, size_t longest_word) {
+  std::string out;
+  size_t word = 0;
+  for (const char c : text) {
+    word = c == ' ' ? 0 : word + 1;
+    if (word == longest_word + 1) out += "...";
+    if (word > longest_word) continue;
+    const bool plain = c >= ' ' && c <= '~';
+    out += plain ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
+
 Error mesh_file_fault(const std::filesystem::path& file, std::string message) {
-  return {ErrorCode::parse, std::move(message), file.string(), {}};
+  return {ErrorCode::parse, printable(message), file.string(),
+          "write the file anew from the program that it comes from"};
 }
 
 Status check_mesh_file(const std::filesystem::path& file) {

@@ -31,7 +31,10 @@ struct PolygonFile {
 /// No file may hold more than this, however it says so.
 constexpr size_t most_mesh_elements = 20'000'000;
 
-/// The error of a file that cannot be understood.
+/// Text of a file for people: bytes that are no plain character as \xNN, words cut that are longer.
+std::string printable(std::string_view text, size_t longest_word = 80);
+
+/// The error of a file that cannot be understood. What the message quotes of it is made printable.
 Error mesh_file_fault(const std::filesystem::path& file, std::string message);
 /// The whole file, after a check that it is there, not empty and below a gibibyte.
 Result<std::string> read_mesh_bytes(const std::filesystem::path& file);

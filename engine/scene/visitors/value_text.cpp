@@ -14,13 +14,13 @@ std::string with_unit(double value, std::string_view unit) {
 
 /// The largest magnitude by unit. Lengths reach as far as positions may; velocities a few times the
 /// speed at which things orbit stars; m3/s2 (gravitational constant times mass) is that of the Sun
-/// and more.
+/// and more; Coulomb's constant is 9e9 N m2/C2.
 double largest_magnitude(std::string_view unit) {
   static constexpr std::pair<std::string_view, double> largest[] = {
-      {"m", 1e7},      {"m/s", 1e6},  {"m/s2", 1e9},   {"rad/s", 1e6},  {"deg", 1e6},
-      {"deg/s", 1e8},  {"kg", 1e12},  {"kg/m3", 1e12}, {"kg m2", 1e24}, {"s", 1e7},
-      {"Hz", 1e6},     {"1/s", 1e9},  {"1/s2", 1e9},   {"1/m", 1e7},    {"m2/s", 1e12},
-      {"m3/s2", 1e21}, {"N/m", 1e12}, {"N s/m", 1e12}};
+      {"m", 1e7},      {"m/s", 1e6},  {"m/s2", 1e9},   {"rad/s", 1e6},   {"deg", 1e6},
+      {"deg/s", 1e8},  {"kg", 1e12},  {"kg/m3", 1e12}, {"kg m2", 1e24},  {"s", 1e7},
+      {"Hz", 1e6},     {"1/s", 1e9},  {"1/s2", 1e9},   {"1/m", 1e7},     {"m2/s", 1e12},
+      {"m3/s2", 1e21}, {"N/m", 1e12}, {"N s/m", 1e12}, {"N m2/C2", 1e15}};
   for (const auto& [name, value] : largest)
     if (name == unit) return value;
   return 1e9;  // pure numbers: factors, ratios, coefficients

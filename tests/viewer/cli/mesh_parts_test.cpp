@@ -124,6 +124,27 @@ TEST_CASE("an L is two boxes, exactly and approximately, in the file as in the a
   }
 }
 
+TEST_CASE("pieces as glTF: a node each, read back with the volume of the mesh") {
+  // Reference: the program's reader of glTF, which is another library's.
+  const TempFolder folder;
+  const std::string file = l_prism(folder.path());
+  for (const char* name : {"pieces.glb", "pieces.gltf"}) {
+    CAPTURE(name);
+    const std::string out = (folder.path() / name).string();
+    const Json pieces =
+        json_of(tumble_program({"mesh", file, "--decompose", "--json", "--out", out}));
+    CHECK(pieces["decomposition"]["out"] == out);
+    const Json back = json_of(tumble_program({"mesh", out, "--json"}));
+    CHECK(back["format"] == "glTF");
+    REQUIRE(back["parts"].size() == pieces["decomposition"]["pieces"].size());
+    CHECK(back["parts"][0]["name"] == "piece_000");
+    double volume = 0;
+    for (const Json& shell : back["shells"]) volume += shell["volume"].get<double>();
+    CHECK(volume == doctest::Approx(3).epsilon(1e-6));
+    CHECK(back["open_edges"] == 0);
+  }
+}
+
 TEST_CASE("exact pieces of meshes rounded to six digits are convex and add up, in the file") {
   const TempFolder folder;
   const fs::path out = folder.path() / "pieces.obj";
@@ -182,6 +203,10 @@ TEST_CASE("a distance field says its cells, bytes and errors, and draws its slic
   REQUIRE(names.size() == 24);
   CHECK(names.front() == "slice_000.png");
   CHECK(names.back() == "slice_023.png");
+  const ProgramRun again = tumble_program({"mesh", file, "--sdf", "--slices", slices.string()});
+  CHECK(again.code == 5);
+  CHECK(mentions(again.err, "--force"));
+  CHECK(tumble_program({"mesh", file, "--sdf", "--slices", slices.string(), "--force"}).code == 0);
   const Json by_error =
       json_of(tumble_program({"mesh", file, "--sdf", "--error", "0.05", "--json"}));
   CHECK(by_error["distance_field"]["band_error"].get<double>() <= 0.05);

@@ -2,6 +2,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
+#include "viewer/app/mesh/pieces_file.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/overlays.hpp"
@@ -127,7 +128,12 @@ void declare_parts(Options& options, MeshLine& line) {
              "no more pieces than this; 64 unless given, exact ones 10000")
       .between(1, 10000)
       .needs(decompose);
-  options.value("--out", line.pieces.file, "write the pieces into this OBJ file").needs(decompose);
+  options
+      .value("--out", line.pieces.file,
+             "write the pieces into this OBJ (.obj) or glTF file (.glb, .gltf)")
+      .not_empty()
+      .ends_in(piece_file_endings())
+      .needs(decompose);
   const Option sdf = options.flag("--sdf", line.sdf, "signed distance field: cost and error");
   const Option cell = options
                           .value("--cell", line.field.cell,
@@ -141,8 +147,11 @@ void declare_parts(Options& options, MeshLine& line) {
   options.flag("--fit", line.fit, "primitives that stand for it, the best first, and their errors");
   options.flag("--representations", line.representations,
                "what it may collide as, side by side: errors both ways, bytes, pieces, cost");
-  options.value("--slices", line.field.slices, "draw slices of it into this folder as PNG")
-      .needs(sdf);
+  const Option slices =
+      options.value("--slices", line.field.slices, "draw slices of it into this folder as PNG")
+          .not_empty()
+          .needs(sdf);
+  options.flag("--force", line.field.force, "overwrite slices that exist").needs(slices);
 }
 
 }  // namespace
@@ -206,11 +215,18 @@ CommandAction declare_mesh(Options& options) {
       "principal_axes} no_volume_because hull{exists why vertices facets volume area\n"
       "volume_ratio} hierarchies{aabb obb sphere convex_hull: nodes leaves depth\n"
       "bytes bytes_per_triangle tightness{root_over_hull leaves_over_mesh nodes_per_line}\n"
-      "timing{build_ms}} notes picture; null where there is no value.\n\n"
+      "timing{build_ms}} notes picture; null where there is no value. What was asked for, else no\n"
+      "key: decomposition{exact pieces[vertices faces volume added] cuts hull_volume mesh_volume\n"
+      "volume_ratio added missing concavity bound_met left_out{parts volume} out timing{seconds}}\n"
+      "distance_field{cell cells band blocks bits bytes bytes_per_area node_error band_error\n"
+      "measured{rms largest} overlapped_nodes slices{folder count} timing{seconds}}\n"
+      "fit{primitives[type, its sizes, position orientation added missing volume_ratio]\n"
+      "timing{seconds}} representations{triangle_mesh convex_hull decomposition field fit: exists\n"
+      "why what pieces bytes added missing volume_ratio timing{query_ns seconds}}\n\n"
       "Examples:\n"
       "  tumble mesh part.stl --scale 0.001 --up z\n"
       "  tumble mesh assets/meshes/gear.obj --json\n"
-      "  tumble mesh assets/meshes/cup.obj --decompose --concavity 0.005 --out pieces.obj\n"
+      "  tumble mesh assets/meshes/cup.obj --decompose --concavity 0.005 --out pieces.glb\n"
       "  tumble mesh assets/meshes/cup.obj --sdf --cell 0.002 --slices slices\n"
       "  tumble mesh assets/meshes/rook.obj --fit --representations\n"
       "  tumble mesh assets/meshes/vase.obj --render vase.png --hierarchy obb --level 4");

@@ -2,7 +2,9 @@
 
 #include "engine/core/crew.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/core/watched.hpp"
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/scene/build/field_cache.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/png.hpp"
 #include "viewer/capture/progress.hpp"
@@ -51,7 +53,7 @@ Image slice_picture(const DistanceField& field, double z) {
   out.channels = 3;
   out.pixels.resize(size_t(out.height) * out.row_bytes());
   size_t n = 0;
-  for (int row = 0; row < out.height; ++row)
+  for (int row = 0; row < out.height && !stop_requested(); ++row)
     for (int column = 0; column < out.width; ++column) {
       const Vec3 p(box.min.x() + (column + 0.5) * pixel, box.max.y() - (row + 0.5) * pixel, z);
       const auto c = colour_of(field.sample(p), field.cell(), box.extent().maxCoeff(), pixel);
@@ -60,18 +62,33 @@ Image slice_picture(const DistanceField& field, double z) {
   return out;
 }
 
+std::filesystem::path slice_file(const std::filesystem::path& folder, int n) {
+  return folder / fmt::format("slice_{:03}.png", n);
+}
+
+/// A folder for slices, without any unless they may be overwritten.
+Status make_slice_folder(const FieldRequest& request) {
+  if (Status made = make_folder(request.slices); !made) return made;
+  std::error_code error;
+  for (int n = 0; n < slice_count && !request.force; ++n)
+    if (const auto file = slice_file(request.slices, n); std::filesystem::exists(file, error))
+      return Error{ErrorCode::io, "there are slices already", file.string(),
+                   "--force overwrites them"};
+  return {};
+}
+
 /// How many pictures were written before one failed or a signal came.
 Result<size_t> write_slices(const DistanceField& field, const Aabb& mesh,
                             const std::filesystem::path& folder, const StopSignal& stop) {
-  if (Status made = make_folder(folder); !made) return made.error();
-  Progress progress(slice_count, 0);
+  WorkProgress progress("slices");
   size_t done = 0;
   for (int n = 0; n < slice_count && !stop.requested(); ++n) {
     const double z = mesh.min.z() + mesh.extent().z() * (n + 0.5) / slice_count;
-    const Status written =
-        write_png(folder / fmt::format("slice_{:03}.png", n), slice_picture(field, z));
-    if (!written) return written.error();
-    progress.show(++done);
+    const Image picture = slice_picture(field, z);
+    if (stop.requested()) break;
+    if (const Status written = write_png(slice_file(folder, n), picture); !written)
+      return written.error();
+    progress.show(double(++done) / slice_count);
   }
   return done;
 }
@@ -82,17 +99,24 @@ std::variant<FieldFacts, FieldFault> measure_field(const std::shared_ptr<const T
                                                    const FieldRequest& request,
                                                    const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
+  if (!request.slices.empty())
+    if (const Status there = make_slice_folder(request); !there)
+      return FieldFault{there.error(), true};
+  WorkProgress progress("distance field");
+  const ProgressSink show = [&](double share) { progress.show(share); };
+  const Watched watched(&show);
   const AabbTree tree(mesh);
   Crew crew(int(std::clamp(std::thread::hardware_concurrency(), 1u, 64u)));
   DistanceFieldOptions options;
   options.cell = request.cell;
   options.error = request.error;
-  options.crew = &crew;
   const auto start = std::chrono::steady_clock::now();
-  const auto field = make_distance_field(tree, options);
+  const auto made = FieldCache().field(mesh, field_cell(options, tree.bounds()), &crew);
+  progress.finish();
   FieldFacts out;
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!field) return FieldFault{field.error(), false};
+  if (!made) return FieldFault{made.error(), false};
+  const DistanceField* field = made->get();
   out.cell = field->cell();
   out.band = field->band();
   for (size_t k = 0; k < 3; ++k)

@@ -13,6 +13,7 @@ class StopSignal;
 struct FieldRequest {
   double cell = 0, error = 0;  ///< of DistanceFieldOptions [m]
   std::string slices;          ///< folder for pictures; empty: none
+  bool force = false;          ///< overwrite pictures that are there
 };
 
 /// The distance field of a mesh and what it costs.
@@ -32,10 +33,11 @@ struct FieldFault {
   bool cannot_write = false;
 };
 
-/// Builds the field, measures it, and writes slices as PNG: slice_000.png at the lowest z and so
-/// on, x to the right and y up. Inside blue, outside orange, a line at the surface and at every two
-/// cells of distance, paler beyond the band. Each file appears whole or not at all; after a signal
-/// no further one is begun and the fault is `cancelled`.
+/// Builds the field with progress on stderr, or takes it from the cache; measures it, and writes
+/// slices as PNG: slice_000.png at the lowest z and so on, x to the right and y up. Inside blue,
+/// outside orange, a line at the surface and at every two cells of distance, paler beyond the band.
+/// Each file appears whole or not at all; after a signal no further one is begun and the fault is
+/// `cancelled`.
 std::variant<FieldFacts, FieldFault> measure_field(const std::shared_ptr<const TriangleMesh>& mesh,
                                                    const FieldRequest& request,
                                                    const StopSignal& stop);

@@ -1,7 +1,9 @@
 #include "viewer/app/mesh/mesh_fit.hpp"
 
 #include "engine/core/stop.hpp"
-#include "engine/geometry/hierarchy/aabb_tree.hpp"
+#include "engine/core/watched.hpp"
+#include "engine/scene/build/fit_cache.hpp"
+#include "viewer/capture/progress.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
 #include <chrono>
@@ -13,7 +15,11 @@ namespace tumble {
 Result<FitFacts> fit_mesh(const std::shared_ptr<const TriangleMesh>& mesh, const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
   const auto start = std::chrono::steady_clock::now();
-  auto fits = fit_primitives(AabbTree(mesh));
+  WorkProgress progress("primitives");
+  const ProgressSink show = [&](double share) { progress.show(share); };
+  const Watched watched(&show);
+  auto fits = FitCache().fits(mesh);
+  progress.finish();
   if (!fits) return fits.error();
   FitFacts out;
   out.fits = *std::move(fits);

@@ -15,7 +15,8 @@ struct FitFacts {
   double seconds = 0;
 };
 
-/// Fits all kinds. After a signal the error is `cancelled`.
+/// Fits all kinds with progress on stderr, or takes them from the cache. After a signal the error
+/// is `cancelled`.
 Result<FitFacts> fit_mesh(const std::shared_ptr<const TriangleMesh>& mesh, const StopSignal& stop);
 
 std::string fit_text(const FitFacts& facts);

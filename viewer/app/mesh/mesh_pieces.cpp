@@ -1,8 +1,8 @@
 #include "viewer/app/mesh/mesh_pieces.hpp"
 
 #include "engine/core/crew.hpp"
-#include "engine/geometry/hierarchy/aabb_tree.hpp"
-#include "viewer/capture/atomic_file.hpp"
+#include "engine/scene/build/piece_cache.hpp"
+#include "viewer/capture/progress.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
 #include <algorithm>
@@ -10,43 +10,17 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace tumble {
-namespace {
-
-/// How far a decomposition has got, on stderr: at most ten times a second on a terminal, else a
-/// line every five seconds. How much is left nobody knows before the last piece.
-class PiecesProgress {
- public:
-  void operator()(size_t done, size_t waiting) {
-    const auto now = std::chrono::steady_clock::now();
-    if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.1 : 5.0)) return;
-    last_ = now;
-    const std::string line =
-        fmt::format("{} pieces done, {} parts to look at, {:.0f} s", done, waiting,
-                    std::chrono::duration<double>(now - start_).count());
-    fmt::print(stderr, "{}{:<60}{}", terminal_ ? "\r" : "", line, terminal_ ? "" : "\n");
-    std::fflush(stderr);
-    open_ = terminal_;
-  }
-  void finish() {
-    if (open_) fmt::print(stderr, "\n");
-    open_ = false;
-  }
-
- private:
-  bool terminal_ = ::isatty(STDERR_FILENO) != 0, open_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
-};
-
-}  // namespace
-
 Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                    const PiecesRequest& request, const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
-  PiecesProgress progress;
-  const DecompositionProgress show = [&](size_t done, size_t waiting) { progress(done, waiting); };
+  WorkProgress progress("convex pieces");
+  // A part still to be looked at becomes a piece, or several: what is left is at least this.
+  const DecompositionProgress show = [&](size_t done, size_t waiting) {
+    progress.show(double(done) / double(std::max<size_t>(1, done + waiting)),
+                  fmt::format("{} done, {} parts to look at", done, waiting));
+  };
   const auto start = std::chrono::steady_clock::now();
   Crew crew(int(std::clamp(std::thread::hardware_concurrency(), 1u, 64u)));
   auto made = [&] {
@@ -55,14 +29,14 @@ Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& me
       options.tolerance = request.tolerance;
       options.max_pieces = request.most.value_or(options.max_pieces);
       options.progress = show;
-      return decompose_exactly(*mesh, options);
+      return PieceCache().exact_decomposition(*mesh, options);
     }
     ApproximateDecompositionOptions options;
     options.concavity = request.concavity;
     options.max_pieces = request.most.value_or(options.max_pieces);
     options.crew = &crew;
     options.progress = show;
-    return decompose_approximately(AabbTree(mesh), options);
+    return PieceCache().decomposition(mesh, options);
   }();
   progress.finish();
   if (!made) return made.error();
@@ -70,27 +44,6 @@ Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& me
   out.decomposition = *std::move(made);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
-}
-
-Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces) {
-  FileWriter out(file);
-  std::string text = fmt::format("# {} convex pieces by Tumble, metres\n", pieces.pieces.size());
-  size_t first = 1;
-  for (size_t n = 0; n < pieces.pieces.size(); ++n) {
-    const ConvexPolyhedron& p = pieces.pieces[n].hull;
-    text += fmt::format("o piece_{:03}\n", n);
-    for (const Vec3& v : p.vertices) text += fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
-    for (size_t f = 0; f < p.face_count(); ++f) {
-      text += "f";
-      for (const uint32_t v : p.face(f)) text += fmt::format(" {}", first + v);
-      text += "\n";
-    }
-    first += p.vertices.size();
-    out.append(text);
-    text.clear();
-  }
-  out.append(text);
-  return out.commit();
 }
 
 std::string pieces_text(const PiecesFacts& facts) {

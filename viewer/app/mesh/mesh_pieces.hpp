@@ -16,7 +16,7 @@ struct PiecesRequest {
   double tolerance = 0;        ///< of exact pieces; 0: that of decompose_exactly [m]
   double concavity = 0;        ///< of approximate ones; 0: that of decompose_approximately [m]
   std::optional<size_t> most;  ///< pieces; unless given what the decomposition allows
-  std::string file;            ///< OBJ; empty: none is written
+  std::string file;            ///< OBJ or glTF (pieces_file.hpp); empty: none is written
 };
 
 /// The pieces of a mesh and what they cost.
@@ -26,13 +26,10 @@ struct PiecesFacts {
   std::filesystem::path file;
 };
 
-/// Decomposes with progress on stderr. Errors: those of the decomposition; cancelled after a
-/// signal.
+/// Decomposes with progress on stderr, or takes the pieces from the cache. Errors: those of the
+/// decomposition; cancelled after a signal.
 Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                    const PiecesRequest& request, const StopSignal& stop);
-
-/// Every piece as a group of an OBJ file, its faces as polygons; whole or not at all.
-Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces);
 
 std::string pieces_text(const PiecesFacts& facts);
 
