@@ -79,6 +79,36 @@ TEST_CASE("what floats does so at its Archimedes depth") {
   CHECK(depth == doctest::Approx(0.5).epsilon(0.04));
 }
 
+TEST_CASE("fluid in the cavity of a mesh that moves stays there") {
+  // A cube with a cubic cavity of half its side, about the origin.
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (const double half : {0.4, 0.2})
+    for (unsigned k = 0; k < 8; ++k)
+      mesh->vertices.emplace_back(k & 4 ? half : -half, k & 2 ? half : -half, k & 1 ? half : -half);
+  mesh->triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                     {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  for (size_t k = 0; k < 12; ++k) {
+    const Triangle t = mesh->triangles[k];
+    mesh->triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+  }
+  FluidTank tank;
+  ShapeDef hollow;
+  hollow.type = ShapeType::triangle_mesh;
+  hollow.mesh = mesh;
+  const uint32_t body = tank.add_body(hollow, Vec3::Zero(), 3000);
+  tank.bodies[body].acceleration = Vec3::Zero();
+  tank.bodies[body].velocity = {0.5, 0, 0};
+  tank.bodies[body].angular_velocity = {0, 3, 0};
+  const double s = 0.04;
+  tank.fill(Vec3::Constant(-0.16), Vec3::Constant(0.16), s);
+  const int ticks = test::only_to_run() ? 4 : 60;
+  for (int k = 0; k < ticks; ++k) {
+    REQUIRE(tank.step());
+    const FluidWall& wall = tank.walls[0];
+    for (const Vec3& x : tank.x) CHECK(wall.pose.inverse_point(x).cwiseAbs().maxCoeff() < 0.2 + s);
+  }
+}
+
 TEST_CASE("fluid and a free body keep their momentum and angular momentum without gravity") {
   FluidTank tank;
   tank.gravity = Vec3::Zero();

@@ -1,5 +1,6 @@
 #include "engine/dynamics/sph/fluid_state.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/sph/wall_integrals.hpp"
 #include "engine/math/rotation.hpp"
 
@@ -57,6 +58,7 @@ void find_walls(FluidState& s) {
     constexpr size_t together = 32;
     std::vector<uint32_t> near;
     for (size_t begin = first; begin < last; begin += together) {
+      if (stop_requested()) return;
       const size_t end = std::min(begin + together, last);
       Aabb box;
       for (size_t p = begin; p < end; ++p) box.include(s.x(p));

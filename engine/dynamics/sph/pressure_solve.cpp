@@ -195,6 +195,9 @@ void solve_pressure(FluidState& s) {
   forces.act();
 }
 
+// Shares are linear in places only nearby, and a particle whose share hardly depends on its place,
+// as one that has come into a wall, would be thrown anywhere: the shift is no longer than the way
+// that the Courant condition allows in a sub-step.
 void shift_particles(FluidState& s) {
   std::vector<double> source;
   find_rates(s, source);
@@ -204,7 +207,12 @@ void shift_particles(FluidState& s) {
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)
           .run();
-  s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
+  const double longest = s.common.cfl * s.spacing / s.h;
+  s.each([&](size_t p) {
+    const Vec3 shift = s.h * s.acceleration[p];
+    const double length = shift.norm();
+    s.shift.set(p, length > longest ? Vec3(longest / length * shift) : shift);
+  });
 }
 
 void press_by_state(FluidState& s, double sound_speed) {
