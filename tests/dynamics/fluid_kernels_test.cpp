@@ -5,6 +5,7 @@
 #include "engine/dynamics/sph/wall_integrals.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <doctest/doctest.h>
@@ -145,6 +146,18 @@ TEST_CASE("a lattice of fluid lies at rest half a spacing from a wall") {
           (mirrored_half_space(kernel, s, d - 1e-8) - mirrored_half_space(kernel, s, d + 1e-8)) /
           2e-8;
       CHECK(mirrored_plane(kernel, s, d) == doctest::Approx(slope).epsilon(1e-4).scale(1));
+    }
+  }
+}
+
+TEST_CASE("deep in a wall there is nothing but wall, however deep") {
+  const double s = 0.05, infinity = std::numeric_limits<double>::infinity();
+  for (const FluidKernelKind kind : kinds) {
+    const SmoothingKernel kernel(kind, 2 * s);
+    for (const double depth : {2 * s, 1.0, 1e20, 1e300, infinity}) {
+      CAPTURE(depth);
+      CHECK(mirrored_half_space(kernel, s, -depth) == doctest::Approx(1).epsilon(0.02));
+      CHECK(std::abs(mirrored_plane(kernel, s, -depth)) < 0.1 / s);
     }
   }
 }

@@ -56,6 +56,23 @@ struct FluidTank {
     add_wall(centre, e, uint32_t(bodies.size() - 1));
     return uint32_t(bodies.size() - 1);
   }
+  /// A body of any shape at `centre`, which has to be the shape's centre of mass; density 0: it
+  /// stands still.
+  uint32_t add_body(const ShapeDef& def, const Vec3& centre, double density) {
+    shapes_.push_back(make_shape(def).value());
+    const Shape& shape = *shapes_.back();
+    FluidBody b;
+    b.centre = centre;
+    if (density > 0) {
+      const MassProperties unit = shape.mass_properties().value();
+      b.inverse_mass = 1 / (density * unit.mass);
+      b.inverse_inertia = Mat3(density * unit.inertia).inverse();
+      b.acceleration = gravity;
+    }
+    bodies.push_back(b);
+    walls.push_back({&shape, {centre, Quat::Identity()}, uint32_t(bodies.size() - 1)});
+    return uint32_t(bodies.size() - 1);
+  }
   void fill(const Vec3& low, const Vec3& high, double s) {
     fill_if(low, high, s, [](const Vec3&) { return true; });
   }

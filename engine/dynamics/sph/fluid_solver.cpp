@@ -101,6 +101,7 @@ class FluidTickRun {
     find_surroundings(s);
     if (stop_requested()) return stopped_error();
     const bool implicit = s.common.solver == FluidSolverKind::dfsph;
+    if (s.corrects()) find_corrections(s);
     if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });
     s.report.outer_work += s.accelerate();

@@ -1,9 +1,11 @@
 #include "engine/dynamics/sph/fluid_state.hpp"
 
+#include "engine/core/stop.hpp"
 #include "engine/dynamics/sph/wall_integrals.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 
@@ -42,6 +44,16 @@ void find_rates(FluidState& s, std::vector<double>& rates) {
   });
 }
 
+void find_divergences(FluidState& s, std::vector<double>& rates) {
+  rates.resize(s.size());
+  s.each([&](size_t p) {
+    double rate = corrected_rate(s, p, s.v);
+    for (const WallTouch& t : s.touches_of(p))
+      rate += (s.v[p] - s.bodies[t.body].velocity_at(s.x(p))).dot(t.corrected);
+    rates[p] = rate;
+  });
+}
+
 void find_walls(FluidState& s) {
   std::vector<Pose> poses;
   std::vector<Aabb> bounds;
@@ -57,6 +69,7 @@ void find_walls(FluidState& s) {
     constexpr size_t together = 32;
     std::vector<uint32_t> near;
     for (size_t begin = first; begin < last; begin += together) {
+      if (stop_requested()) return;
       const size_t end = std::min(begin + together, last);
       Aabb box;
       for (size_t p = begin; p < end; ++p) box.include(s.x(p));
@@ -91,13 +104,13 @@ namespace {
 /// particle that a body touches had its part of the body, so that all together do not push too far
 /// (Tonge, Benevolenski and Voroshilov, "Mass splitting for jitter-free parallel rigid body
 /// simulation", 2012).
-double body_diagonal(const FluidState& s, size_t p) {
+double body_diagonal(const FluidState& s, size_t p, Vec3 WallTouch::*gradient) {
   double sum = 0;
   for (const WallTouch& t : s.touches_of(p)) {
     if (s.body_defs[t.body].inverse_mass == 0) continue;
-    const Vec3 arm = s.x(p) - s.bodies[t.body].centre;
-    const Wrench r = s.response(t.body, {t.gradient, arm.cross(t.gradient)});
-    sum += s.bodies[t.body].touches * t.gradient.dot(r.impulse + r.angular_impulse.cross(arm));
+    const Vec3 arm = s.x(p) - s.bodies[t.body].centre, &along = t.*gradient;
+    const Wrench r = s.response(t.body, {along, arm.cross(along)});
+    sum += s.bodies[t.body].touches * along.dot(r.impulse + r.angular_impulse.cross(arm));
   }
   return s.volume[p] * sum;
 }
@@ -165,7 +178,75 @@ void find_surroundings(FluidState& s) {
       s.share[p] += t.share;
       s.gradient[p] += t.gradient;
     }
-    s.diagonal[p] += s.gradient[p].squaredNorm() / s.density[p] + body_diagonal(s, p);
+    s.diagonal[p] +=
+        s.gradient[p].squaredNorm() / s.density[p] + body_diagonal(s, p, &WallTouch::gradient);
+  });
+}
+
+namespace {
+
+/// The inverse of a symmetric matrix whose eigenvalues are not below `least`, or are raised to it:
+/// by Jacobi's rotations.
+Mat3 bounded_inverse(Mat3 a, double least) {
+  Mat3 axes = Mat3::Identity();
+  for (int sweep = 0; sweep < tolerances::moment_sweeps; ++sweep)
+    for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+      if (a(i, j) == 0) continue;
+      const double theta = (a(j, j) - a(i, i)) / (2 * a(i, j));
+      const double t = std::copysign(1 / (std::abs(theta) + std::sqrt(theta * theta + 1)), theta);
+      const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+      Mat3 turn = Mat3::Identity();
+      turn(i, i) = turn(j, j) = c;
+      turn(i, j) = s, turn(j, i) = -s;
+      a = turn.transpose() * a * turn;
+      axes = axes * turn;
+    }
+  const Vec3 inverse = a.diagonal().cwiseMax(Vec3::Constant(least)).cwiseInverse();
+  return axes * inverse.asDiagonal() * axes.transpose();
+}
+
+/// Sum of -V f d d, which is 1 for a fluid without end, and what walls add: next to one a fluid
+/// whose velocity is linear does not go through it, and closes its share by that velocity over the
+/// distance.
+Mat3 moment(const FluidState& s, size_t p) {
+  Mat3 sum = Mat3::Zero();
+  each_slope(s, p, [&](size_t other, const Vec3& slope) {
+    sum -= slope * (s.x(p) - s.x(other)).transpose();
+  });
+  for (const WallTouch& t : s.touches_of(p)) {
+    const double steep = t.gradient.norm();
+    if (steep > 0 && t.distance > 0)
+      sum += t.distance / steep * t.gradient * t.gradient.transpose();
+  }
+  return sum;
+}
+
+}  // namespace
+
+void find_corrections(FluidState& s) {
+  const size_t n = s.size();
+  s.correction.resize(n), s.corrected_gradient.resize(n), s.corrected_diagonal.resize(n);
+  s.each([&](size_t p) {
+    const Mat3 correction = bounded_inverse(moment(s, p), tolerances::least_moment);
+    Vec3 gradient = Vec3::Zero();
+    double squares = 0;
+    each_slope(s, p, [&](size_t other, const Vec3& slope) {
+      if (s.volume[other] == 0) return;
+      const Vec3 corrected = correction * slope;
+      gradient += corrected;
+      squares += corrected.squaredNorm() / (s.volume[other] * s.density[other]);
+    });
+    for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
+      WallTouch& t = s.touches[k];
+      const double square = t.gradient.squaredNorm();
+      t.corrected = square > 0 ? Vec3(t.gradient.dot(correction * t.gradient) / square * t.gradient)
+                               : Vec3(Vec3::Zero());
+      gradient += t.corrected;
+    }
+    s.correction[p] = correction;
+    s.corrected_gradient[p] = gradient;
+    s.corrected_diagonal[p] = gradient.squaredNorm() / s.density[p] + s.volume[p] * squares +
+                              body_diagonal(s, p, &WallTouch::corrected);
   });
 }
 

@@ -18,6 +18,8 @@ struct WallTouch {
   Vec3 gradient;    ///< of that [1/m]
   double distance;  ///< [m]
   Vec3 normal;      ///< out of the wall
+  /// The gradient as find_corrections makes it [1/m].
+  Vec3 corrected = Vec3::Zero();
 };
 
 /// A body while the fluid of a tick is computed.
@@ -61,10 +63,15 @@ struct FluidState {
   std::vector<double> shift_pressure;    ///< what makes the shift, as a pressure [Pa]
   std::vector<double> share;             ///< density over that at rest [-]
   std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
-  std::vector<double> diagonal;     ///< how much a particle's own pressure opens it [m3/(kg m2)]
-  std::vector<double> slopes;       ///< sum of V f: see FluidList [1/m2]
-  Vec3 origin = Vec3::Zero();       ///< near the fluid, for what is linear in places [m]
-  std::vector<size_t> first_touch;  ///< by place, and one more
+  std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
+  /// Of `dfsph`: what makes sums of slopes exact for velocities that are linear in places, and the
+  /// gradient and diagonal with it: see find_corrections.
+  std::vector<Mat3> correction;            ///< [-]
+  std::vector<Vec3> corrected_gradient;    ///< [1/m]
+  std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
+  std::vector<double> slopes;              ///< sum of V f: see FluidList [1/m2]
+  Vec3 origin = Vec3::Zero();              ///< near the fluid, for what is linear in places [m]
+  std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;
 
   std::vector<FluidPairStore> stores;         ///< by chunk
@@ -75,6 +82,11 @@ struct FluidState {
   const FluidDef& def(size_t p) const { return *defs[fluid[p]]; }
   bool any(double FluidDef::*value) const {
     return std::ranges::any_of(defs, [&](const FluidDef* d) { return d->*value > 0; });
+  }
+  /// Whether pressures are by corrected slopes. Those of an attraction between particles are plain:
+  /// pressures that are to bear it have them, too, else the shift would give it energy.
+  bool corrects() const {
+    return common.solver == FluidSolverKind::dfsph && !any(&FluidDef::surface_tension);
   }
   Vec3 x(size_t p) const { return at[p]; }
   Vec3 local(size_t p) const { return at[p] - origin; }
@@ -202,6 +214,32 @@ inline FluidVector opening(const FluidState& s, size_t p, const Vec3& u) {
 inline double opened(const FluidState& s, size_t p, const FluidVector& sum) {
   return sum.w - s.local(p).dot(sum.vector());
 }
+/// f(other, V f d of the other) for the neighbours of a particle.
+template <class F>
+void each_slope(const FluidState& s, size_t p, const F& f) {
+  const FluidList list = s.list(p);
+  const double unit = s.stores[s.store_of[p]].slope_unit();
+  for (size_t k = 0; k < list.padded; ++k) {
+    const size_t other = list.others[k];
+    f(other, Vec3(unit * double(list.slopes[k]) * s.volume[other] * (s.x(p) - s.x(other))));
+  }
+}
+/// The two sums with corrections K, of which each particle has its own:
+///   sum of V f (p K + p' K') d   and   sum of V f (u - u') . K d
+/// `pressed` are the products p K by place.
+inline Vec3 corrected_force(const FluidState& s, size_t p, double pressure,
+                            const std::vector<Mat3>& pressed) {
+  Vec3 force = pressure * s.corrected_gradient[p];
+  each_slope(s, p, [&](size_t other, const Vec3& slope) { force += pressed[other] * slope; });
+  return force;
+}
+inline double corrected_rate(const FluidState& s, size_t p, const FluidVectors& u) {
+  const Vec3 own = u[p];
+  Mat3 sum = Mat3::Zero();
+  each_slope(s, p,
+             [&](size_t other, const Vec3& slope) { sum += (own - u[other]) * slope.transpose(); });
+  return sum.cwiseProduct(s.correction[p]).sum();
+}
 /// For sums of V f (u - u') or V W (u - u').
 inline FluidVector differing(const FluidState& s, size_t p, const Vec3& u) {
   const Vec3 v = s.volume[p] * u;
@@ -215,9 +253,13 @@ inline Vec3 difference(const Vec3& u, const FluidVector& sum) {
 Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin);
 /// Walls, shares, gradients and diagonals, from places and volumes.
 void find_surroundings(FluidState& s);
+/// From these the corrections, and with them gradients and diagonals.
+void find_corrections(FluidState& s);
 /// Rates at which shares change by the velocities that are [1/s]: fluid behind a wall moves as the
 /// mirror image.
 void find_rates(FluidState& s, std::vector<double>& rates);
+/// The same with corrections: minus the divergence of velocities.
+void find_divergences(FluidState& s, std::vector<double>& rates);
 /// Fills FluidState::touches.
 void find_walls(FluidState& s);
 /// Bodies move on for the sub-step.

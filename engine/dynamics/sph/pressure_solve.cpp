@@ -3,6 +3,12 @@
 // M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are the
 // nearest to those before that are allowed, and have no more energy.
 //
+// D is the divergence with the slopes of kernels corrected so that it is exact for velocities that
+// are linear in places (Bonet and Lok, "Variational and momentum preservation aspects of smooth
+// particle hydrodynamic formulations", 1999): no shear, which is one, has a rate, and so D^T p is
+// an isotropic stress, however particles lie. Of plain slopes the shear of a lattice has rates, and
+// a fluid at rest a yield stress.
+//
 // What of the density is wrong by then, since rates are not differences, moves particles and no
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
@@ -14,24 +20,29 @@
 namespace tumble {
 namespace {
 
+/// Of which operator D pressures are: that of shares themselves, or the corrected one of
+/// find_corrections.
+enum class Sums : uint8_t { of_shares, corrected };
+
 /// Forces of pressures, and what bodies make of them.
 class PressureForces {
  public:
-  PressureForces(FluidState& s, const std::vector<double>& pressure, bool bodies_yield)
-      : s_(s), pressure_(pressure), responses_(s.bodies.size()) {
+  PressureForces(FluidState& s, const std::vector<double>& pressure, Sums sums, bool bodies_yield)
+      : s_(s),
+        pressure_(pressure),
+        corrected_(sums == Sums::corrected),
+        responses_(s.bodies.size()) {
+    if (corrected_) pressed_.assign(s.lists.places(), Mat3::Zero());
     if (!bodies_yield) return;
     for (const FluidBody& b : s.body_defs) bodies_yield_ = bodies_yield_ || b.inverse_mass > 0;
   }
 
   void find() {
     FluidState& s = s_;
-    s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure_[p])); });
-    s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
-      const Vec3 force = pressure_[p] * s.gradient[p] + pressed(s, p, sum);
-      const Vec3 a = -(1 / s.density[p]) * force;
-      s.acceleration.set(p, a);
-      s.other_terms.put(p, opening(s, p, a));
-    });
+    if (corrected_)
+      find_corrected();
+    else
+      find_plain();
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies();
     for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s.response(b, forces[b]);
@@ -40,15 +51,18 @@ class PressureForces {
   template <class F>
   double sum_openings(const F& f) const {
     const FluidState& s = s_;
+    if (corrected_)
+      return s.sum([&](size_t p) {
+        return f(p, corrected_rate(s, p, s.acceleration) + opened_by_walls(p));
+      });
     return s.sum_with_pairs(
         FluidFactor::slope, s.other_terms, nullptr, [&](size_t p, const FluidVector& sum) {
-          double rate = s.acceleration[p].dot(s.gradient[p]) + opened(s, p, sum);
-          if (bodies_yield_)
-            for (const WallTouch& t : s.touches_of(p))
-              rate -= s.response_at(responses_, t.body, s.x(p)).dot(t.gradient);
+          const double rate =
+              s.acceleration[p].dot(s.gradient[p]) + opened(s, p, sum) + opened_by_bodies(p);
           return f(p, rate);
         });
   }
+  double diagonal(size_t p) const { return corrected_ ? s_.corrected_diagonal[p] : s_.diagonal[p]; }
   /// They have acted for the sub-step.
   void act() {
     s_.report.pressure_work += s_.accelerate();
@@ -58,18 +72,50 @@ class PressureForces {
   }
 
  private:
+  void find_plain() {
+    FluidState& s = s_;
+    s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure_[p])); });
+    s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
+      const Vec3 force = pressure_[p] * s.gradient[p] + pressed(s, p, sum);
+      const Vec3 a = -(1 / s.density[p]) * force;
+      s.acceleration.set(p, a);
+      s.other_terms.put(p, opening(s, p, a));
+    });
+  }
+  void find_corrected() {
+    FluidState& s = s_;
+    s.each([&](size_t p) { pressed_[p] = pressure_[p] * s.correction[p]; });
+    s.each([&](size_t p) {
+      const Vec3 force = corrected_force(s, p, pressure_[p], pressed_);
+      s.acceleration.set(p, -(1 / s.density[p]) * force);
+    });
+  }
+  const Vec3& gradient(const WallTouch& t) const { return corrected_ ? t.corrected : t.gradient; }
+  double opened_by_bodies(size_t p) const {
+    double rate = 0;
+    if (bodies_yield_)
+      for (const WallTouch& t : s_.touches_of(p))
+        rate -= s_.response_at(responses_, t.body, s_.x(p)).dot(gradient(t));
+    return rate;
+  }
+  double opened_by_walls(size_t p) const {
+    double rate = opened_by_bodies(p);
+    for (const WallTouch& t : s_.touches_of(p)) rate += s_.acceleration[p].dot(gradient(t));
+    return rate;
+  }
   std::vector<Wrench> on_bodies() const {
     const FluidState& s = s_;
     return s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
       if (pressure_[p] == 0) return;
       for (const WallTouch& t : s.touches_of(p))
-        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * t.gradient);
+        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * gradient(t));
     });
   }
 
   FluidState& s_;
   const std::vector<double>& pressure_;
-  bool bodies_yield_ = false;
+  bool corrected_, bodies_yield_ = false;
+  std::vector<Mat3> pressed_;      ///< pressure times correction, by place [Pa]
   std::vector<Wrench> responses_;  ///< what bodies make of the forces
 };
 
@@ -122,7 +168,7 @@ class PressureSolve {
  private:
   /// How far from its solution each is: excess, or pressure that is more than it takes.
   double wrong(size_t p) const {
-    const double own = s_.diagonal[p] * pressure_[p];
+    const double own = forces_.diagonal(p) * pressure_[p];
     return residual_[p] > 0 ? residual_[p] : std::min(-residual_[p], own);
   }
   /// Rayleigh's quotient of the last change of pressures.
@@ -130,8 +176,8 @@ class PressureSolve {
     const auto change = [&](size_t p) { return pressure_[p] - before_[p]; };
     const double bent = s_.sum(
         [&](size_t p) { return s_.volume[p] * change(p) * (residual_before_[p] - residual_[p]); });
-    const double moved =
-        s_.sum([&](size_t p) { return s_.volume[p] * s_.diagonal[p] * change(p) * change(p); });
+    const double moved = s_.sum(
+        [&](size_t p) { return s_.volume[p] * forces_.diagonal(p) * change(p) * change(p); });
     if (bent > s_.stiffest * moved && moved > 0) s_.stiffest = bent / moved;
   }
   void note(int number, double error) const {
@@ -163,9 +209,9 @@ class PressureSolve {
   double& stepped(size_t p) {
     double& to = next_[p];
     to = pressure_[p];
-    if (s_.diagonal[p] > 0)
-      to = std::max(0.0,
-                    to + tolerances::gradient_step / s_.stiffest * residual_[p] / s_.diagonal[p]);
+    if (forces_.diagonal(p) > 0)
+      to = std::max(
+          0.0, to + tolerances::gradient_step / s_.stiffest * residual_[p] / forces_.diagonal(p));
     return to;
   }
 
@@ -183,11 +229,15 @@ class PressureSolve {
 
 void solve_pressure(FluidState& s) {
   std::vector<double> source;
-  find_rates(s, source);
+  const bool corrects = s.corrects();
+  if (corrects)
+    find_divergences(s, source);
+  else
+    find_rates(s, source);
   // Where there is room, the fluid may use it up.
   s.each(
       [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
-  PressureForces forces(s, s.pressure, true);
+  PressureForces forces(s, s.pressure, corrects ? Sums::corrected : Sums::of_shares, true);
   const double error = tolerances::rate_share * s.common.density_error;
   s.report.pressure_iterations +=
       PressureSolve(s, source, s.pressure, forces, error, s.trace ? &s.trace->pressure : nullptr)
@@ -195,16 +245,24 @@ void solve_pressure(FluidState& s) {
   forces.act();
 }
 
+// Shares are linear in places only nearby, and a particle whose share hardly depends on its place,
+// as one that has come into a wall, would be thrown anywhere: the shift is no longer than the way
+// that the Courant condition allows in a sub-step.
 void shift_particles(FluidState& s) {
   std::vector<double> source;
   find_rates(s, source);
   s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
-  PressureForces forces(s, s.shift_pressure, false);
+  PressureForces forces(s, s.shift_pressure, Sums::of_shares, false);
   s.report.shift_iterations +=
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)
           .run();
-  s.each([&](size_t p) { s.shift.set(p, s.h * s.acceleration[p]); });
+  const double longest = s.common.cfl * s.spacing / s.h;
+  s.each([&](size_t p) {
+    const Vec3 shift = s.h * s.acceleration[p];
+    const double length = shift.norm();
+    s.shift.set(p, length > longest ? Vec3(longest / length * shift) : shift);
+  });
 }
 
 void press_by_state(FluidState& s, double sound_speed) {
@@ -215,7 +273,7 @@ void press_by_state(FluidState& s, double sound_speed) {
     for (int k = 0; k < tolerances::tait_exponent; ++k) power *= s.share[p];
     s.pressure[p] = std::max(0.0, stiffness * (power - 1));
   });
-  PressureForces forces(s, s.pressure, true);
+  PressureForces forces(s, s.pressure, Sums::of_shares, true);
   forces.find();
   s.report.density_error =
       s.sum([&](size_t p) { return std::max(0.0, s.share[p] - 1); }) / double(s.size());

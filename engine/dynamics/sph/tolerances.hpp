@@ -16,6 +16,12 @@ inline constexpr double wall_clearance = 0.25;
 /// [-]: it gets little energy by it.
 inline constexpr double wall_return = 0.1;
 
+/// Sums of slopes are corrected as if eigenvalues of their moment were not below this [-]: they are
+/// 1 inside a fluid and 1/2 at a plane surface; a particle that is nearly alone has none.
+inline constexpr double least_moment = 0.3;
+/// Sweeps of Jacobi's rotations of a moment [-]: they converge quadratically, from within a half.
+inline constexpr int moment_sweeps = 4;
+
 /// How much farther lists of neighbours look than kernels reach [reaches], so that they last for
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;

@@ -122,6 +122,14 @@ double gauss_legendre(double a, double b, double split, const F& f) {
   return sum;
 }
 
+/// Where layers of mirrored particles begin: a particle deep in a wall has as many as reach it.
+double first_mirrored(const SmoothingKernel& kernel, double spacing, double distance) {
+  const double first = 2 * distance, reach = kernel.reach();
+  if (first > -reach) return first;
+  const double beyond = std::fmod(-reach - first, spacing);
+  return beyond > 0 ? spacing - reach - beyond : -reach;
+}
+
 bool flat(const SmoothingKernel& kernel, double low, double high) {
   return low <= -kernel.reach() && high >= kernel.reach();
 }
@@ -185,13 +193,14 @@ OwnShare ball_share(const SmoothingKernel& kernel, double radius, const Vec3& x)
 
 double mirrored_half_space(const SmoothingKernel& kernel, double spacing, double distance) {
   double sum = 0;
-  for (double r = 2 * distance; r < kernel.reach(); r += spacing) sum += spacing * kernel.plane(r);
+  for (double r = first_mirrored(kernel, spacing, distance); r < kernel.reach(); r += spacing)
+    sum += spacing * kernel.plane(r);
   return sum;
 }
 
 double mirrored_plane(const SmoothingKernel& kernel, double spacing, double distance) {
   double sum = 0;
-  for (double r = 2 * distance; r < kernel.reach(); r += spacing)
+  for (double r = first_mirrored(kernel, spacing, distance); r < kernel.reach(); r += spacing)
     sum += 4 * std::numbers::pi * spacing * r * kernel.value(std::abs(r));
   return sum;
 }
