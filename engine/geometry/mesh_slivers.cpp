@@ -260,7 +260,8 @@ std::vector<uint32_t> close_t_junctions(TriangleMesh& mesh, double height) {
     uint32_t from = whole[side.k];
     bool free = edges->free(on.back(), b);
     for (const uint32_t m : on) {
-      free = free && edges->free(from, m) && !edges->known(m, c);
+      free = free && edges->free(from, m) && !edges->known(m, c) &&
+             (m == on.back() || !edges->known(m, b));
       from = m;
     }
     if (!free) continue;

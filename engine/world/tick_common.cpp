@@ -158,8 +158,8 @@ RealtimeTick realtime_tick(WorldState& s, const TickChoice& choice) {
 }
 
 Status outcome_of_tick(const WorldState& s, Status status) {
-  const std::string tick = fmt::format("tick {}", s.tick + 1);
   if (!stop_requested() && status) return status;
+  const std::string tick = fmt::format("tick {}", s.tick + 1);
   Error error = stop_requested() ? stopped_error() : status.error();
   if (error.place.empty())
     error.place = tick;

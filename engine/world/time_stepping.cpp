@@ -83,13 +83,13 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
     joints_ = s.joints.joints;
     couplings_ = s.joints.couplings;
     find_apart(s, apart_);
-    links_ = block_links(s);
     s.contacts.for_each([this](const Contact& c) { known_.push_back(c); });
     std::ranges::sort(known_, {}, &Contact::key);
   }
   s.ledger = *ledger_;
   s.joints.joints = joints_;
   s.joints.couplings = couplings_;
+  links_ = block_links(s);  // between those that are not held now
   nets_.find_among(s, bodies);
   nets_.tie_blocks(s.bodies.bodies);
   forces_.share(bodies, books_.shares);

@@ -1,6 +1,7 @@
 #include "viewer/app/options.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -102,7 +103,9 @@ const Option& Option::not_empty() const {
 const Option& Option::ends_in(std::vector<std::string> endings) const {
   option_->check(CLI::Validator(
       [endings = std::move(endings)](std::string& text) {
-        const std::string ending = std::filesystem::path(text).extension().string();
+        std::string ending = std::filesystem::path(text).extension().string();
+        std::ranges::transform(ending, ending.begin(),
+                               [](unsigned char c) { return char(std::tolower(c)); });
         const bool known = std::find(endings.begin(), endings.end(), ending) != endings.end();
         return known ? std::string{}
                      : fmt::format("'{}' does not end in {}", text, fmt::join(endings, ", "));

@@ -126,11 +126,12 @@ std::optional<Quantity> quantity_of_name(const Frame& frame, const std::string& 
   const std::string owner = name.substr(0, name.rfind(": "));
   for (size_t slot = 0; slot < frame.body_slots(); ++slot)
     if (!frame.body(slot).id.is_null() && frame.info(slot).name == owner)
-      return in(quantities_of(frame, frame.body(slot).id));
+      if (auto found = in(quantities_of(frame, frame.body(slot).id))) return found;
   if (frame.joints)
     for (const JointFrame& joint : *frame.joints)
       if (joint.name == owner)
-        return in(quantities_of(frame, joint.b.is_null() ? joint.a : joint.b));
+        if (auto found = in(quantities_of(frame, joint.b.is_null() ? joint.a : joint.b)))
+          return found;
   return in(quantities_of_sensors(frame));
 }
 

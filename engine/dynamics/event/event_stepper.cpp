@@ -77,6 +77,7 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const JointsA
   for (const ProxyPair& p : pairs_) {
     ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
     if (a.body == b.body || (!bodies[a.body].dynamic() && !bodies[b.body].dynamic())) continue;
+    if (carried_[a.body] && carried_[b.body]) continue;  // time-stepping finds its own
     if (b.body < a.body) std::swap(a, b);
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
   }
@@ -222,7 +223,7 @@ void EventStepper::note_time_stepped() {
 bool EventStepper::foresee_crowds(const EventContext& context) {
   bool any = false;
   for (const BodyGroup& g : groups_) {
-    if (!GroupWindows::scattered(g, context)) continue;
+    if (g.time_stepped || !GroupWindows::scattered(g, context)) continue;
     for (const uint32_t slot : g.bodies) reaches_[slot].distance *= tolerances::group_spare;
     any = true;
   }
@@ -299,6 +300,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     find_pairs(bodies, broad_phase, context.apart);
     if (auto crowd = tries == 0 ? find_crowd(proxies_, pairs_) : std::nullopt) {
       crowd->error.place = "about " + context.name(crowd->slot);
+      // Too many for events: time-stepping, whose bounds are those of the tick's motion, moves all.
       if (!context.time_stepping) return crowd->error;
       for (const uint32_t slot : moving) carried_[slot] = true;
     }

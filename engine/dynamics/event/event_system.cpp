@@ -198,8 +198,8 @@ void EventSystem::set_courses(std::span<const CourseMotion> courses) {
 }
 
 double EventSystem::course_change(uint32_t slot) const {
-  const auto at = std::ranges::find(kinematic_, slot, &Carried::slot);
-  return at == kinematic_.end() ? 0 : at->change.v.norm();
+  const auto at = std::ranges::lower_bound(kinematic_, slot, {}, &Carried::slot);
+  return at == kinematic_.end() || at->slot != slot ? 0 : at->change.v.norm();
 }
 
 void EventSystem::rest_courses() {

@@ -378,7 +378,7 @@ void ContinuousStage::time_own(std::span<const RigidBody> bodies, const JoinedWa
                                Crew& crew) {
   crew.each(candidates_.size(), [&](size_t i) {
     Candidate& c = candidates_[i];
-    c.held = false;
+    c.held.reset();
     if (c.timed && c.version_a == 0 && c.version_b == 0) return;
     c.stop = {};
     c.version_a = c.version_b = 0;
@@ -410,10 +410,11 @@ void ContinuousStage::join_in_order(std::span<const RigidBody> bodies, double h,
     const auto [now, i] = *events.begin();
     events.erase(events.begin());
     Candidate& c = candidates_[i];
+    const SweptStop stop = c.stop;
     const std::vector<uint32_t> changed =
         ways.meet(c.a.body, c.b.body, now, c.firm || goes_over(bodies, c.a.body, c.b.body),
                   c.firm || goes_over(bodies, c.b.body, c.a.body));
-    c.held = !changed.empty();
+    if (!changed.empty()) c.held = stop;
     // What these were to meet changes, and they can get into the way of what would have missed
     // them.
     for (const uint32_t body : changed) {
@@ -519,8 +520,8 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   stats.tested = candidates_.size();
   place(bodies, h, ways, stats);
   for (const Candidate& c : candidates_)
-    if (c.held && c.thin && c.stop.deepens)
-      stop_approach(bodies[c.a.body], bodies[c.b.body], c.stop.at, c.stop.normal);
+    if (c.held && c.thin && c.held->deepens)
+      stop_approach(bodies[c.a.body], bodies[c.b.body], c.held->at, c.held->normal);
   return stats;
 }
 

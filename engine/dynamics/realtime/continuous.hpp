@@ -14,6 +14,7 @@
 #include "engine/dynamics/realtime/way.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,8 +51,8 @@ class ContinuousStage {
                 const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr, bool everything = true);
   /// Pairs of bodies that do not stop each other; it must live until apply().
   void pass_through(const PairFilter& apart) { apart_ = &apart; }
-  /// Takes back the poses of fast bodies; call after the solver.
-  /// `islands` are those that the solver had.
+  /// Holds back fast bodies, or carries on what they meet; call after the solver. `islands` are
+  /// those that the solver had.
   ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
                         const IslandSet& islands, double h, const RealtimeSettings& settings,
                         Crew& crew, const ContinuousMethods& methods = {});
@@ -75,9 +76,9 @@ class ContinuousStage {
     bool timed = false;                     ///< it was
     bool thin = false;  ///< one of the shapes is: what would deepen loses its approach
     bool firm = false;  ///< and they cannot both give way: the slower must not move on either
-    bool held = false;  ///< a body goes another way from there
+    std::optional<SweptStop> held;  ///< from where a body goes another way
   };
-  /// Whether no body can have moved farther than it foresees: what is cheap to tell.
+  /// Whether no body can have moved farther than it, or another, foresees: what is cheap to tell.
   bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
   void note_stale(size_t bodies, bool everything);
   /// How far a body may come without being watched for the sake of others [m].

@@ -11,7 +11,7 @@ namespace tumble {
 
 /// How bodies that have met in a tick go on for the rest of it: what they do to each other is left
 /// to the solver in the next tick, so that nothing but their places is at stake until then. What
-/// cannot give way, or has as much mass as the whole island of the other, goes its way and takes
+/// cannot give way, or has more mass than the whole island of the other, goes its way and takes
 /// the other along: a kinematic body, or a heavy one that meets light ones. Where neither has, both
 /// stay where they are.
 class JoinedWays {

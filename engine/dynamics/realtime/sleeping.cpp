@@ -11,14 +11,17 @@ namespace tumble {
 
 namespace {
 
-/// Speed [m/s] below which a body rests. `pull` is the acceleration that holds it in place: without
-/// one only what is as good as still may sleep, with it nothing that it could be in free flight
-/// for as long as a body must rest, however large it is.
-double resting_speed(const RigidBody& body, double pull, const RealtimeSettings& settings) {
+/// Speed [m/s] below which a body rests, with ticks of h seconds. `pull` is the acceleration that
+/// holds it in place: without one only what is as good as still may sleep; with one, nothing at a
+/// speed that a body in free flight could stay below for `sleep_time`, however large it is.
+double resting_speed(const RigidBody& body, double pull, const RealtimeSettings& settings,
+                     double h) {
   const double r = body.bounding_radius;
   const double slow =
       std::max(settings.sleep_speed * std::sqrt(pull * r), tolerances::weightless_rest * r);
-  return pull > 0 ? std::min(slow, tolerances::slow_in_flight * pull * settings.sleep_time) : slow;
+  return pull > 0
+             ? std::min(slow, tolerances::slow_in_flight * pull * std::max(settings.sleep_time, h))
+             : slow;
 }
 
 void lay_down(RigidBody& body) {
@@ -60,7 +63,7 @@ uint32_t update_sleeping(std::span<RigidBody> bodies, const IslandSet& islands, 
     const double pull = gravity * std::abs(body.gravity_scale);
     const bool may_rest =
         settings.sleeping && body.can_sleep && !islands.islands[island_of(k)].restless;
-    watch(body, resting_speed(body, pull, settings),
+    watch(body, resting_speed(body, pull, settings, h),
           tolerances::averaged_of_sleep_time * settings.sleep_time, may_rest, h);
     scratch.rested[k] = body.rest.time;
   });

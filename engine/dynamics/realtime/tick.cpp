@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -178,12 +179,20 @@ Status RealtimeTick::by_groups(TickParts& parts) {
 /// to be awake before it is there.
 void RealtimeTick::wake_in_the_way() {
   bool any = false;
+  std::vector<uint32_t> sleepers;
+  const auto moves = [this](uint32_t slot) {
+    return !bodies[slot].dynamic() && (!bodies[slot].v.isZero(0) || !bodies[slot].omega.isZero(0));
+  };
+  if (std::ranges::any_of(roster.active(), moves))
+    for (uint32_t slot = 0; slot < bodies.size(); ++slot)
+      if (bodies[slot].dynamic() && bodies[slot].asleep) sleepers.push_back(slot);
+  if (sleepers.empty()) return;
   for (const uint32_t k : roster.active()) {
+    if (!moves(k) || stop_requested()) continue;
     const RigidBody& kinematic = bodies[k];
-    if (kinematic.dynamic()) continue;
     const Aabb path = swept_bounds(kinematic, h);
-    for (RigidBody& body : bodies) {
-      if (!body.dynamic() || !body.asleep) continue;
+    for (const uint32_t slot : sleepers) {
+      RigidBody& body = bodies[slot];
       const Vec3 from = body.pose.x - kinematic.pose.x;
       const double way = h * (kinematic.v.norm() + (from.cross(kinematic.omega)).norm());
       const Vec3 reach = Vec3::Constant(body.bounding_radius);

@@ -94,7 +94,8 @@ class Builder {
       budget -= double(def->particles.size());
       if (def->fluid) {
         apply();
-        const Status held = fit_fluid(*built_.world, built_.bodies, *def, built_.warnings);
+        const Status held = fit_fluid(*built_.world, built_.bodies, *def,
+                                      !scene_.sinks.items.empty(), built_.warnings);
         if (!held) {
           fault(held.error().place, held.error().message + " (" + held.error().cure + ")");
           continue;

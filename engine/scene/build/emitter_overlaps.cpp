@@ -68,11 +68,19 @@ struct Region {
   Placed operator()(const MeshVolumeEmission&) const { return std::nullopt; }
 };
 
-/// When something comes of an emitter, from and to [s].
+/// Of more bursts than that only when the first and the last come is looked at.
+constexpr int most_bursts = 1000;
+
+/// When something comes of an emitter, from and to [s]; a burst is a moment.
 std::vector<std::pair<double, double>> times_of(const EmitterDef& def) {
   std::vector<std::pair<double, double>> out;
-  if (def.rate > 0) out.push_back({def.start, def.end});
-  for (const Burst& b : def.bursts) out.push_back({b.time, b.time + (b.times - 1) * b.every});
+  if (def.rate > 0)
+    out.push_back({def.start, std::min(def.end, def.start + double(def.count) / def.rate)});
+  for (const Burst& b : def.bursts) {
+    if (b.times > most_bursts) out.push_back({b.time, b.time + (b.times - 1) * b.every});
+    for (int k = 0; k < b.times && b.times <= most_bursts; ++k)
+      out.push_back({b.time + k * b.every, b.time + k * b.every});
+  }
   return out;
 }
 
@@ -112,7 +120,9 @@ std::optional<PlacedEmitter> placed(const World& world, const std::string& name,
 bool at_one_time(const PlacedEmitter& a, const PlacedEmitter& b) {
   for (const auto& [from, to] : a.times)
     for (const auto& [begin, end] : b.times)
-      if (std::max(from, begin) <= std::min(to, end)) return true;
+      if (const double first = std::max(from, begin), last = std::min(to, end);
+          first < last || (first == last && (from == to || begin == end)))
+        return true;
   return false;
 }
 

@@ -42,17 +42,19 @@ bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
 }  // namespace
 
 Status fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
-                 ParticleSystemDef& def, std::vector<std::string>& warnings) {
+                 ParticleSystemDef& def, bool may_fall, std::vector<std::string>& warnings) {
   if (def.particles.empty()) return {};
   std::vector<FluidWall> walls;
   for (const auto& [name, id] : bodies)
     if (const RigidBody* b = world.body(id))
       for (const BodyShape& s : b->shapes) walls.push_back({s.shape.get(), b->pose * s.pose, 0});
-  if (falls(world, def) && !ends(def) && !contained(def, walls))
-    return Error{ErrorCode::invalid_argument, "nothing contains this fluid: it would fall for ever",
-                 "particles." + def.name,
-                 "place bodies about or below it; a drop that is to fall has a \"life\" [s] or "
-                 "\"gravity_scale\": 0"};
+  const bool comes_back = def.box.any();
+  if (falls(world, def) && !may_fall && !ends(def) && !comes_back && !contained(def, walls))
+    return Error{
+        ErrorCode::invalid_argument, "nothing contains this fluid: it would fall for ever",
+        "particles." + def.name,
+        "place bodies about or below it; what is to fall has a \"life\" [s], a sink below, "
+        "a periodic box, or \"gravity_scale\": 0"};
   std::vector<Vec3> x;
   double mass = 0;
   for (const ParticleDef& p : def.particles) {

@@ -165,8 +165,10 @@ std::vector<std::string> joint_start_warnings(const BuiltScene& built) {
           look_at_coupling(joint, k, leader->second, *couple, settings, sentences);
       }
   }
-  Sentences sentences(out);
-  for (const auto& [index, joint] : joints) look_at_velocities(joint, sentences);
+  {
+    Sentences sentences(out);
+    for (const auto& [index, joint] : joints) look_at_velocities(joint, sentences);
+  }
   return out;
 }
 

@@ -144,8 +144,10 @@ Result<MadeSystem> make_system(World& world, const SceneDescription& parts, cons
   if (!woven) return woven.error();
   std::vector<std::string> warnings;
   if (def->fluid)
-    if (const Status held = fit_fluid(world, lent->bodies, *def, warnings); !held)
-      warnings.push_back(held.error().text());
+    if (const Status held =
+            fit_fluid(world, lent->bodies, *def, !parts.sinks.items.empty(), warnings);
+        !held)
+      return held.error();
   return MadeSystem{*std::move(def), *std::move(woven)};
 }
 

@@ -10,8 +10,9 @@ void AssertionDescription::check(const AssertionDescription& d, Complaints& comp
   if (!parsed)
     complaints.add("holds", parsed.error().text());
   else if (!parsed->is_condition())
-    complaints.add("holds", "a quantity, but nothing is said of it: compare it, as in \"" +
-                                d.holds + " < 1e-6\"");
+    complaints.add("holds",
+                   "a quantity, but nothing is said of it: compare it, and each part "
+                   "of an && or ||, as in \"bodies.ball.asleep == 1\"");
 }
 
 }  // namespace tumble

@@ -85,7 +85,9 @@ Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& te
           ErrorCode::invalid_argument, expression.error().text(), "--assert '" + text + "'", {}};
     if (!expression->is_condition())
       return Error{ErrorCode::invalid_argument, "a quantity, but nothing is said of it",
-                   "--assert '" + text + "'", "compare it: --assert '" + text + " < 1e-6'"};
+                   "--assert '" + text + "'",
+                   "compare it, and each part of an && or ||, as in --assert "
+                   "'bodies.ball.asleep == 1'"};
     for (const std::string& name : expression->names())
       if (!quantity(scene, *frame, name))
         return Error{ErrorCode::invalid_argument, unknown_quantity(name, scene),

@@ -1,5 +1,6 @@
 #include "viewer/app/editing/process_lock.hpp"
 
+#include <cerrno>
 #include <utility>
 
 #include <fcntl.h>
@@ -25,7 +26,8 @@ std::optional<ProcessLock> ProcessLock::take(const std::filesystem::path& file) 
   while (true) {
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (descriptor < 0) return std::nullopt;
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    // Where files cannot be locked, as on some networks, each goes on as if alone.
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor);
       return std::nullopt;
     }

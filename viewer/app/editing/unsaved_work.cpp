@@ -23,8 +23,9 @@ constexpr std::chrono::milliseconds patience(500);
 /// So many new scenes of one folder are told apart.
 constexpr int most_unnamed = 1000;
 
-/// So many windows that show one scene keep their work apart from each other.
-constexpr int most_windows = 8;
+/// In so many places the work on one scene is kept apart: of windows that show it now, and of runs
+/// that ended and nobody has gone on with.
+constexpr int most_places = 64;
 
 fs::path lock_of(const fs::path& kept) {
   fs::path lock = kept;
@@ -61,28 +62,27 @@ fs::path unnamed_scene(int n) {
 
 void UnsavedWork::open(const SceneFile& file, bool goes_on) {
   auto held = std::move(held_);
+  const fs::path goes_on_in = taken_.empty() && goes_on ? keep_in_ : taken_;
   *this = UnsavedWork(folder_);
   held_ = std::move(held);
   file_ = file;
   text_ = file.text;
   any_ = file.text != file.on_disk;
-  choose_file();
+  if (held_.contains(goes_on_in) && is_of_scene(goes_on_in)) keep_in_ = goes_on_in;
   if (any_ || goes_on) keep();
 }
 
-/// The one that this run keeps the scene's work in already.
-void UnsavedWork::choose_file() {
-  keep_in_.clear();
-  if (folder_.empty() || file_.text.empty()) return;
-  for (int place = 1; place <= most_windows; ++place)
-    if (const fs::path file = kept_file_of(file_.path, place); held_.contains(file))
-      keep_in_ = file;
+/// Whether a file is one of those in which work on the scene that is shown is kept.
+bool UnsavedWork::is_of_scene(const fs::path& kept) const {
+  for (int place = 1; place <= most_places; ++place)
+    if (kept == kept_file_of(file_.path, place)) return true;
+  return false;
 }
 
 /// One in which nobody else keeps any.
 void UnsavedWork::claim_file() {
   std::error_code none;
-  for (int place = 1; place <= most_windows; ++place) {
+  for (int place = 1; place <= most_places; ++place) {
     const fs::path file = kept_file_of(file_.path, place);
     auto lock = ProcessLock::take(lock_of(file));
     if (!lock || fs::exists(file, none)) continue;
@@ -102,7 +102,7 @@ UnsavedWork::Files UnsavedWork::kept_files_of(const fs::path& scene) const {
   Files out;
   if (folder_.empty()) return out;
   std::error_code none;
-  for (int place = 1; place <= most_windows; ++place)
+  for (int place = 1; place <= most_places; ++place)
     if (fs::path file = kept_file_of(scene, place); fs::exists(file, none))
       out.push_back(std::move(file));
   return out;
@@ -135,6 +135,7 @@ std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
 }
 
 void UnsavedWork::take_over(const Kept& kept) {
+  taken_ = kept.file;
   if (held_.contains(kept.file)) return;
   if (auto lock = ProcessLock::take(lock_of(kept.file)))
     held_.insert_or_assign(kept.file, *std::move(lock));
@@ -241,7 +242,7 @@ void UnsavedWork::saved(const SceneFile& file) {
   throw_away(keep_in_);
   file_.path = file_.read_from = file.path;
   file_.on_disk = file.on_disk;
-  choose_file();
+  keep_in_.clear();
   any_ = false;
   stale_ = true;  // the newest deed may have gone on
 }
@@ -249,6 +250,7 @@ void UnsavedWork::saved(const SceneFile& file) {
 void UnsavedWork::throw_away(const fs::path& kept) {
   if (kept.empty()) return;
   const fs::path file = kept;  // may be that of keep_in_
+  if (is_anothers(file)) return;
   std::error_code none;
   fs::remove(file, none);
   held_.erase(file);

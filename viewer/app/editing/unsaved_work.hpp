@@ -82,7 +82,7 @@ class UnsavedWork {
   std::optional<std::string> text_with(const std::string& text,
                                        const std::vector<SceneEdit>& edits) const;
   void keep();
-  void choose_file();
+  bool is_of_scene(const std::filesystem::path& kept) const;
   void claim_file();
   std::filesystem::path kept_file_of(const std::filesystem::path& scene, int place) const;
   Files kept_files_of(const std::filesystem::path& scene) const;
@@ -91,6 +91,7 @@ class UnsavedWork {
 
   std::filesystem::path folder_;
   std::filesystem::path keep_in_;  ///< empty: nothing was kept yet
+  std::filesystem::path taken_;    ///< what the next scene that is opened goes on with
   /// The files in which this run keeps work, of all scenes that it has shown.
   std::map<std::filesystem::path, ProcessLock> held_;
   SceneFile file_;

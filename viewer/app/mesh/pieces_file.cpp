@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -139,7 +140,9 @@ std::vector<std::string> piece_file_endings() {
 }
 
 Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces) {
-  const std::string ending = file.extension().string();
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
   if (ending != ".glb" && ending != ".gltf") return write_obj(file, pieces);
   GltfAsset asset;
   for (size_t n = 0; n < pieces.pieces.size(); ++n)

@@ -155,7 +155,7 @@ void Application::look_at_files(double dt) {
   SceneWish start = wish;
   start.text.reset();
   cause.deeds = deeds_as_choices(start, *now);
-  cause.deeds_lost = cause.deeds.empty() && !deeds_.edits().empty();
+  cause.deeds_lost = cause.deeds.size() < deeds_.edits().deeds().size();
   open_for(std::move(cause), std::move(wish));
 }
 
