@@ -12,9 +12,10 @@ namespace fs = std::filesystem;
 TEST_CASE("one more shape touches seven files: no others ask for a type") {
   // What makes shapes of a fixed kind for its own purpose is free to name it.
   const std::set<std::string> makers{
-      "engine/scene/build/body_defs.cpp",   // meshes, by the mode that they are declared with
-      "engine/scene/build/mesh_parts.cpp",  // what meshes collide as
-      "engine/scene/drop_in.cpp",           // a table on a floor
+      "engine/scene/build/body_defs.cpp",         // meshes, by the mode that they are declared with
+      "engine/scene/build/emitter_overlaps.cpp",  // the regions of emitters
+      "engine/scene/build/mesh_parts.cpp",        // what meshes collide as
+      "engine/scene/drop_in.cpp",                 // a table on a floor
       "engine/scene/robot_files/robot_model.cpp",  // the shapes of robot files
       "engine/scene/workloads/hulls.cpp",          // the fixed pieces of work of `tumble bench`
       "engine/scene/workloads/parts.cpp",

@@ -173,7 +173,7 @@ TEST_CASE("what acts on something still loses a name and stays") {
   "particles": { "dust": { "detect": true } },
   "emitters": {
     "sparks": { "particles": "dust", "rate": 1, "life": 1 },
-    "rain": { "particles": "dust", "rate": 1, "life": 1,
+    "rain": { "particles": "dust", "position": [0, 5, 0], "rate": 1, "life": 1,
               "events": [{ "event": "collision", "emitter": "sparks", "dies": true }] }
   },
   "sinks": { "drain": { "type": "sphere", "radius": 1, "takes": "both", "particles": ["dust"] } },

@@ -58,7 +58,8 @@ TEST_CASE("event: what is crushed is named, with what crushes it, when the room 
       CHECK(e.message.find("crushed between body 'wall'") != std::string::npos);
       CHECK(e.message.find("body 'plate'") != std::string::npos);
       CHECK(e.message.find("at 1.7 m/s") != std::string::npos);
-      CHECK(e.place.find("body 'crate'") == 0);
+      CHECK(e.place.starts_with("tick "));
+      CHECK(e.place.find("body 'crate'") != std::string::npos);
       CHECK(e.cure.find("stop the kinematic body") != std::string::npos);
       // The world is where the last whole tick left it.
       CHECK(int(w->tick()) == int(std::floor(0.4 / 1.7 * hz)));
@@ -83,7 +84,7 @@ TEST_CASE(
   w.add(ball);
   const Error e = first_error(w);
   CHECK(e.message.find("crushed between body 'wall'") != std::string::npos);
-  CHECK(e.place.find("body 'ball'") == 0);
+  CHECK(e.place.find("body 'ball'") != std::string::npos);
   CHECK(int(w->tick()) == int(std::floor(0.6 / 1.7 * 60)));
 }
 

@@ -256,8 +256,10 @@ TEST_CASE("a gear train with a motor at one end and friction at the other is sol
   }
   m.run(2);
   const double alpha = (0.2 - friction / 81) / reflected;
-  CHECK(m.of(joints[0]).rate == doctest::Approx(2 * alpha).epsilon(1e-6));
-  CHECK(m.of(joints[4]).rate == doctest::Approx(2 * alpha / 81).epsilon(1e-6));
+  // In the first sub-step, from rest, friction does not know yet which way the train will turn.
+  const double missed = friction / 81 / reflected / 240;
+  CHECK(std::fabs(m.of(joints[0]).rate - 2 * alpha) < missed);
+  CHECK(m.of(joints[4]).rate == doctest::Approx(m.of(joints[0]).rate / 81).epsilon(1e-6));
 }
 
 TEST_CASE("steppers agree on a gear off the centres of mass as the tick goes to 0") {

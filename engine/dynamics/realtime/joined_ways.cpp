@@ -28,7 +28,7 @@ bool JoinedWays::takes_along(uint32_t a, uint32_t b) {
   const uint32_t leader = group(a).leader, other = group(b).leader;
   if (!gives_way(other)) return false;
   if (!gives_way(leader)) return true;
-  return bodies_[leader].mass > std::max(island_mass(b, leader), island_mass(other, leader));
+  return bodies_[leader].mass >= std::max(island_mass(b, leader), island_mass(other, leader));
 }
 
 /// From time t on with a motion, or at rest where it is none.

@@ -217,7 +217,13 @@ xdotool click 1
 until_true '.points | has("shot")' "Shift and left shoots a ball"
 xdotool keyup shift
 tap r
-until_true '.points | has("box") and (has("shot") | not)' "R brings the box back"
+until_true '.points | has("box") or has("shot") | not' "R takes the ball away, and keeps the box deleted"
+chord ctrl z
+pictures 5
+chord ctrl z
+until_true '.points | has("box")' "Ctrl+Z brings the box back"
+tap r
+pictures 5
 
 xdotool mousemove 500 600
 pictures 2
