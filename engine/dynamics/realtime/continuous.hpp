@@ -8,22 +8,19 @@
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
-#include "engine/dynamics/realtime/joined_ways.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
 #include "engine/dynamics/realtime/swept_pair.hpp"
-#include "engine/dynamics/realtime/way.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace tumble {
 
 struct ContinuousStats {
-  uint64_t fast = 0;     ///< bodies that moved farther than they or others foresee
+  uint64_t fast = 0;     ///< bodies that moved farther than they foresee
   uint64_t tested = 0;   ///< pairs of shapes whose time of contact was computed
-  uint64_t stopped = 0;  ///< bodies that go on with what they met, or stop at it
+  uint64_t stopped = 0;  ///< bodies held back at a contact
 };
 
 /// By which means the stage looks at pairs of shapes.
@@ -36,11 +33,10 @@ struct ContinuousMethods {
 };
 
 /// Swept detection after the solver. Bodies that moved farther in the tick, rotation included, than
-/// their contacts foresee (foresight(); thin convex ones than a fiftieth of their size) or
-/// others do, kinematic ones among them, go their way only to just before the first
-/// contact that would close deeper than the solver can work off. From there on the heavy one takes
-/// the light one along, or both stop (JoinedWays). Their velocity stays, so that the next tick
-/// resolves the contact, but for thin pairs, which lose their approach.
+/// their contacts foresee (foresight(); thin convex ones than a fiftieth of their size) are taken
+/// back to just before the first contact on their way that would close deeper than the solver can
+/// work off. Their velocity stays, so that the next tick resolves the contact, but for thin pairs,
+/// which lose their approach. Both bodies of a pair may be fast.
 class ContinuousStage {
  public:
   /// Keeps the motion at the start of the tick; call before the solver. `gravity` [m/s2] lets a
@@ -51,11 +47,10 @@ class ContinuousStage {
                 const Vec3& gravity = Vec3::Zero(), Crew* crew = nullptr, bool everything = true);
   /// Pairs of bodies that do not stop each other; it must live until apply().
   void pass_through(const PairFilter& apart) { apart_ = &apart; }
-  /// Holds back fast bodies, or carries on what they meet; call after the solver. `islands` are
-  /// those that the solver had.
-  ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
-                        const IslandSet& islands, double h, const RealtimeSettings& settings,
-                        Crew& crew, const ContinuousMethods& methods = {});
+  /// Takes back the poses of fast bodies; call after the solver.
+  ContinuousStats apply(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
+                        const RealtimeSettings& settings, Crew& crew,
+                        const ContinuousMethods& methods = {});
   void add_memory(MemoryUse& use) const {
     use.bodies +=
         heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs, proxies_.first,
@@ -69,48 +64,37 @@ class ContinuousStage {
     Pose pose;
     Vec3 v;  ///< [m/s]
   };
+  struct Track {
+    Motion motion;    ///< over the tick
+    double stop = 0;  ///< until when it moves [s]
+    bool fast = false;
+  };
   struct Candidate {
     ShapeRef a, b;
-    SweptStop stop;                         ///< the first that matters; beyond the tick for none
-    uint32_t version_a = 0, version_b = 0;  ///< for which ways of the bodies it was computed
-    bool timed = false;                     ///< it was
-    bool thin = false;  ///< one of the shapes is: what would deepen loses its approach
+    SweptStop stop;                 ///< the first that matters; beyond the tick for none
+    double stop_a = 0, stop_b = 0;  ///< for which stops of the bodies it was computed
+    bool thin = false;              ///< one of the shapes is: what would deepen loses its approach
     bool firm = false;  ///< and they cannot both give way: the slower must not move on either
-    std::optional<SweptStop> held;  ///< from where a body goes another way
+    bool held = false;  ///< it stopped a body
   };
-  /// Whether no body can have moved farther than it, or another, foresees: what is cheap to tell.
+  /// Whether no body can have moved farther than it foresees: what is cheap to tell.
   bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
   void note_stale(size_t bodies, bool everything);
-  /// How far a body may come without being watched for the sake of others [m].
-  double least_unwatched(std::span<const RigidBody> bodies) const;
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   void put_proxies(const RigidBody& body, uint32_t slot);
-  /// Whether a body is fast, or went farther than another foresees. Nobody else has a say in it.
-  bool goes_over(std::span<const RigidBody> bodies, uint32_t body, uint32_t other) const;
-  /// How far a shape came in the frame of a kinematic body [m].
-  double way_along(std::span<const RigidBody> bodies, ShapeRef ref, uint32_t kinematic) const;
   /// Whether two shapes moved relative to each other by more than their contacts foresee.
   bool far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const;
   void find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase);
-  void find_pairs(BroadPhase& broad_phase, bool most);
-  SweptPair swept_pair(std::span<const RigidBody> bodies, const JoinedWays& ways,
-                       Candidate& candidate) const;
-  void time_candidate(std::span<const RigidBody> bodies, const JoinedWays& ways, double h,
-                      Candidate& candidate) const;
-  /// Times what comes apart on ways of its own.
-  void time_own(std::span<const RigidBody> bodies, const JoinedWays& own, double h, Crew& crew);
+  SweptPair swept_pair(std::span<const RigidBody> bodies, Candidate& candidate) const;
+  void time_candidate(std::span<const RigidBody> bodies, double h, Candidate& candidate) const;
   /// Lists the candidates of every body.
   void index_candidates(size_t bodies);
   std::span<const uint32_t> candidates_of(uint32_t body) const {
     return std::span(by_body_).subspan(first_of_[body], first_of_[body + 1] - first_of_[body]);
   }
-  void join_in_order(std::span<const RigidBody> bodies, double h, JoinedWays& ways);
-  /// Finds what is in the way of bodies that are carried beyond their bounds; false where none is.
-  bool follow_carried(std::span<const RigidBody> bodies, double h, const JoinedWays& ways,
-                      BroadPhase& broad_phase);
-  /// Puts bodies where they come to, on the way that was looked at.
-  void place(std::span<RigidBody> bodies, double h, const JoinedWays& ways,
-             ContinuousStats& stats) const;
+  void stop_in_order(std::span<const RigidBody> bodies, double h);
+  /// Puts bodies where they stop, on the way that was looked at.
+  void place(std::span<RigidBody> bodies, double h, ContinuousStats& stats) const;
 
   ContinuousMethods methods_;
   Vec3 gravity_ = Vec3::Zero();

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double no_contact_time = std::numeric_limits<double>::infinity();
 
-/// The part [t0, t1] of the motion of a shape on a body, within one leg of its way; `offset` is the
-/// shape's frame relative to the body's centre.
-Motion motion_section(const Way& way, double t0, double t1, const Pose& offset) {
-  Motion out = way.leg(t0);
-  out.start = out.carrier(t0);
+/// The part [t0, t1] of the motion of a shape on a body that comes to rest at `stop`, which lies
+/// outside or at an end; `offset` is the shape's frame relative to the body's centre.
+Motion motion_section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
+  Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
+  if (t0 < stop) out.start = m.carrier(t0);
   out.t0 = t0;
   out.t1 = t1;
-  out.offset = out.offset * offset;
+  out.offset = offset;
   return out;
 }
 
@@ -68,40 +68,45 @@ class Sweep {
   }
 
  private:
+  bool moves_a() const { return t_ < p_.stop_a; }
+  bool moves_b() const { return t_ < p_.stop_b; }
   bool is_left() const { return now_.touch && !p_.watch_touching; }
 
   TimeOfContact next_contact(double end) const {
     if (now_.touch && !p_.time_touching) return {};
-    return time_of_contact(p_.a, motion_section(p_.way_a, t_, end, p_.offset_a), p_.b,
-                           motion_section(p_.way_b, t_, end, p_.offset_b), p_.tolerance,
-                           p_.contact_time);
+    return time_of_contact(p_.a, motion_section(p_.motion_a, p_.stop_a, t_, end, p_.offset_a), p_.b,
+                           motion_section(p_.motion_b, p_.stop_b, t_, end, p_.offset_b),
+                           p_.tolerance, p_.contact_time);
   }
 
-  double section_end() const { return std::min({h_, p_.way_a.next(t_), p_.way_b.next(t_)}); }
+  double section_end() const {
+    double end = h_;
+    for (const double stop : {p_.stop_a, p_.stop_b})
+      if (stop > t_) end = std::min(end, stop);
+    return end;
+  }
 
   /// Bound on how fast the overlap along `n` grows before the next contact that is timed [m/s].
   double closing_along(const Vec3& n) const {
     if (!p_.time_touching) return fastest();
-    const auto along = [this](const Way& way, const Vec3& dir, double swing, double lever) {
-      const Motion& m = way.leg(t_);
-      double turn = dir.cross(m.omega).norm();
-      if (&m == &way.own()) turn = std::min(turn, swing);
-      return dir.dot(m.velocity) + (turn > 0 ? turn * m.lever(lever) : 0);
+    const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
+      const double turn = std::min(dir.cross(m.omega).norm(), swing);
+      return dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
     };
-    return along(p_.way_a, n, p_.swing_a, p_.lever_a) + along(p_.way_b, -n, p_.swing_b, p_.lever_b);
+    return (moves_a() ? along(p_.motion_a, n, p_.swing_a, p_.lever_a) : 0) +
+           (moves_b() ? along(p_.motion_b, -n, p_.swing_b, p_.lever_b) : 0);
   }
   double fastest() const {
-    const Motion &a = p_.way_a.leg(t_), &b = p_.way_b.leg(t_);
-    return a.speed_bound(a.lever(p_.lever_a)) + b.speed_bound(b.lever(p_.lever_b));
+    return (moves_a() ? p_.motion_a.speed_bound(p_.lever_a) : 0) +
+           (moves_b() ? p_.motion_b.speed_bound(p_.lever_b) : 0);
   }
   /// How fast the points that meet come together along the normal [m/s].
   double approach(const TimeOfContact& hit) const {
-    const auto velocity = [&](const Way& way, const Vec3& x) {
-      const Motion& m = way.leg(t_);
-      return Vec3(m.velocity + m.omega.cross(x - m.carrier(t_).x));
+    const auto velocity = [&](const Motion& m, const Vec3& x) {
+      return (m.velocity + m.omega.cross(x - m.carrier(t_).x));
     };
-    return hit.normal.dot(velocity(p_.way_a, hit.on_a)) -
-           hit.normal.dot(velocity(p_.way_b, hit.on_b));
+    return (moves_a() ? hit.normal.dot(velocity(p_.motion_a, hit.on_a)) : 0) -
+           (moves_b() ? hit.normal.dot(velocity(p_.motion_b, hit.on_b)) : 0);
   }
 
   /// Goes to time t and looks.
@@ -110,8 +115,9 @@ class Sweep {
     now_ = {};
     manifolds_.clear();
     double nearest = no_contact_time;
-    p_.narrow_phase(p_.a, p_.way_a.pose(t) * p_.offset_a, p_.b, p_.way_b.pose(t) * p_.offset_b,
-                    2 * p_.tolerance, manifolds_);
+    p_.narrow_phase(p_.a, p_.motion_a.carrier(std::min(t, p_.stop_a)) * p_.offset_a, p_.b,
+                    p_.motion_b.carrier(std::min(t, p_.stop_b)) * p_.offset_b, 2 * p_.tolerance,
+                    manifolds_);
     for (const Manifold& m : manifolds_) {
       now_.touch = true;
       now_.closing = std::max(now_.closing, closing_along(m.normal));

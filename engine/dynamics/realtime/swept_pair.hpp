@@ -3,20 +3,20 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/time_of_contact.hpp"
 #include "engine/dynamics/bodies/body.hpp"
-#include "engine/dynamics/realtime/way.hpp"
 
 #include <limits>
 
 namespace tumble {
 
-/// Two shapes on bodies that move from 0 on.
+/// Two shapes on bodies that move from 0 on, each until it is stopped.
 struct SweptPair {
   const Shape &a, &b;
-  Pose offset_a, offset_b;          ///< of the shapes relative to the bodies' centres
-  Way way_a, way_b;                 ///< of the bodies
-  double lever_a = 0, lever_b = 0;  ///< bounding radii of the bodies [m]
-  /// Bounds on how fast the shapes turn as sets on the first leg [rad/s]: what spins about the axis
-  /// that it is round about stays where it is.
+  Pose offset_a, offset_b;            ///< of the shapes relative to the bodies' centres
+  const Motion &motion_a, &motion_b;  ///< of the bodies
+  double stop_a = 0, stop_b = 0;      ///< [s]
+  double lever_a = 0, lever_b = 0;    ///< bounding radii of the bodies [m]
+  /// Bounds on how fast the shapes turn as sets [rad/s]: what spins about the axis that it is round
+  /// about stays where it is.
   double swing_a = 0, swing_b = 0;
   double allowed = 0;  ///< overlap that a contact on the way may reach without being stopped [m]
   double growth = 0;   ///< by which the overlap at 0 may grow, if that is more [m]

@@ -2,34 +2,14 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
-#include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace tumble {
-namespace {
-
-/// Of a body on its way over h seconds at constant velocity.
-Aabb swept_bounds(const RigidBody& body, double h) {
-  Aabb path;
-  for (const BodyShape& s : body.shapes) {
-    const ShapeTurning turning = shape_turning(body, s, h);
-    Aabb bounds = s.shape->bounds(body.pose * s.pose);
-    const Vec3 way = h * (body.v + turning.velocity);
-    bounds.min += way.cwiseMin(Vec3::Zero());
-    bounds.max += way.cwiseMax(Vec3::Zero());
-    path.include(bounds.inflated(turning.reach));
-  }
-  return path;
-}
-
-}  // namespace
-
 void TickReport::add_group(const TickReport& group) {
   contacts.pairs += group.contacts.pairs;
   contacts.carried += group.contacts.carried;
@@ -95,7 +75,7 @@ void RealtimeTick::sweep(double part, const RealtimeSettings& tuning) {
   {
     const ScopedStage stage(profiler, "continuous");
     report.continuous =
-        continuous.apply(bodies, path_broad_phase, islands, part, tuning, crew, continuous_methods);
+        continuous.apply(bodies, path_broad_phase, part, tuning, crew, continuous_methods);
   }
   if (report.continuous.fast > 0) listener.put_back();  // else nothing was moved
 }
@@ -175,40 +155,7 @@ Status RealtimeTick::by_groups(TickParts& parts) {
   return {};
 }
 
-/// Who sleeps in the way of a kinematic body that goes farther in a tick than contacts foresee has
-/// to be awake before it is there.
-void RealtimeTick::wake_in_the_way() {
-  bool any = false;
-  std::vector<uint32_t> sleepers;
-  const auto moves = [this](uint32_t slot) {
-    return !bodies[slot].dynamic() && (!bodies[slot].v.isZero(0) || !bodies[slot].omega.isZero(0));
-  };
-  if (std::ranges::any_of(roster.active(), moves))
-    for (uint32_t slot = 0; slot < bodies.size(); ++slot)
-      if (bodies[slot].dynamic() && bodies[slot].asleep) sleepers.push_back(slot);
-  if (sleepers.empty()) return;
-  for (const uint32_t k : roster.active()) {
-    if (!moves(k) || stop_requested()) continue;
-    const RigidBody& kinematic = bodies[k];
-    const Aabb path = swept_bounds(kinematic, h);
-    for (const uint32_t slot : sleepers) {
-      RigidBody& body = bodies[slot];
-      const Vec3 from = body.pose.x - kinematic.pose.x;
-      const double way = h * (kinematic.v.norm() + (from.cross(kinematic.omega)).norm());
-      const Vec3 reach = Vec3::Constant(body.bounding_radius);
-      if (way <= foresight(body) || !path.overlaps({body.pose.x - reach, body.pose.x + reach}))
-        continue;
-      wake(body);
-      any = true;
-    }
-  }
-  if (!any) return;
-  roster.forget();
-  roster.refresh(bodies, &crew);
-}
-
 Status RealtimeTick::run() {
-  wake_in_the_way();
   if (const Status found = find_pairs(h); !found) return found;
   TickParts parts;
   parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h, close, gravity.norm()},

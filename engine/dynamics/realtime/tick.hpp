@@ -103,7 +103,6 @@ struct RealtimeTick {
   void sleep();
 
  private:
-  void wake_in_the_way();
   Status advance(double part, const RealtimeSettings& tuning);
   Status in_parts(int parts);
   Status group_tick(TickParts& parts, int number);
