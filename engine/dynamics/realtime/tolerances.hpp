@@ -171,9 +171,6 @@ inline constexpr int most_looks = 64;
 /// start [-]: they are in the solver's hands, and those that pass the middle would come out on the
 /// other side.
 inline constexpr double growing_overlap = 0.5;
-/// How deep what is carried on may be pressed into what is in its way, of the inner radius [-]: all
-/// of it is still on its way, and nothing has pushed back yet.
-inline constexpr double pressed_depth = 0.02;
 /// Share of the allowed depth that a pair closes between two looks [-]: so it is seen once before
 /// it is deeper.
 inline constexpr double look_step = 0.5;
