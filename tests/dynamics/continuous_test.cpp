@@ -26,6 +26,14 @@ int shoot(const ShapeDef& wall, const ShapeDef& bullet, int count, const Vec3& s
   return through;
 }
 
+/// A sheet of two triangles in the plane y = 0, whose normals point down.
+ShapeDef sheet() {
+  TriangleMesh m;
+  m.vertices = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+  m.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh(m);
+}
+
 }  // namespace
 
 TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm" *
@@ -174,6 +182,26 @@ TEST_CASE("blows give a needle no energy, whatever it turns by in a tick") {
       const double now = w.kinetic_energy();
       CHECK(now <= 1.01 * energy);
       energy = now;
+    }
+  }
+}
+
+TEST_CASE("round bodies stop at a sheet of triangles from either side") {
+  for (const double from : {1.0, -1.0}) {
+    for (const double speed : {300.0, 30.0, 3.0, 0.3}) {
+      for (const ShapeDef& shape :
+           {sphere(0.002), sphere(0.05), capsule(0.02, 0.1), cylinder(0.05, 0.1)}) {
+        CAPTURE(from);
+        CAPTURE(speed);
+        RigidWorld w;
+        w.gravity.setZero();
+        w.fixed(sheet());
+        BodyDef d = body(shape, {0.1, 0.4 * from, 0.2});
+        d.velocity = {0, -speed * from, 0};
+        const uint32_t i = w.add(d);
+        w.run(0.6 / speed + 0.1);
+        CHECK(w.bodies[i].pose.x.y() * from > 0);
+      }
     }
   }
 }
