@@ -26,6 +26,34 @@ int shoot(const ShapeDef& wall, const ShapeDef& bullet, int count, const Vec3& s
   return through;
 }
 
+/// Balls of 5 mm at rest, scattered below y = 1; `turn` says whether they can, as particles cannot.
+void scatter_balls(RigidWorld& w, int count, bool turn) {
+  Random r(11);
+  for (int i = 0; i < count; ++i) {
+    BodyDef d = body(sphere(0.005), {r.uniform(-.25, .25), r.uniform(-1, 1), r.uniform(-.25, .25)});
+    d.mass = 0.001;
+    RigidBody& ball = w.bodies[w.add(d)];
+    if (turn) continue;
+    ball.inertia_body.setZero();
+    ball.inverse_inertia_body.setZero();
+  }
+}
+
+/// A kinematic wall of 4 mm that comes down at `speed` [m/s].
+uint32_t add_falling_wall(RigidWorld& w, const ShapeDef& wall, double y, double speed) {
+  BodyDef d = body(wall, {0, y, 0});
+  d.type = BodyType::kinematic;
+  d.velocity = {0, -speed, 0};
+  return w.add(d);
+}
+
+/// How many of the balls are above y, or in the way of a wall of 4 mm there.
+int left_behind(const RigidWorld& w, double y) {
+  int count = 0;
+  for (const RigidBody& b : w.bodies) count += b.bounding_radius < 0.01 && b.pose.x.y() > y - 0.002;
+  return count;
+}
+
 /// A sheet of two triangles in the plane y = 0, whose normals point down.
 ShapeDef sheet() {
   TriangleMesh m;
@@ -35,6 +63,72 @@ ShapeDef sheet() {
 }
 
 }  // namespace
+
+TEST_CASE("a kinematic wall leaves nothing behind that lies in its way, at any speed") {
+  const ShapeDef plate = box(1, 0.002, 1), shell = mesh(make_mesh::box({1, 0.002, 1}));
+  for (const ShapeDef& wall : {plate, shell}) {
+    for (const bool turn : {true, false}) {
+      for (const double speed : {60.0, 20.0, 6.0, 1.0}) {
+        CAPTURE(speed);
+        CAPTURE(turn);
+        RigidWorld w;
+        w.gravity.setZero();
+        const uint32_t k = add_falling_wall(w, wall, speed < 6 ? 1.1 : 3, speed);
+        scatter_balls(w, 40, turn);
+        w.run((w.bodies[k].pose.x.y() + 1.2) / speed + 2 * w.h);
+        CHECK(w.bodies[k].pose.x.y() < -1);
+        CHECK(left_behind(w, w.bodies[k].pose.x.y()) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a kinematic wall wakes and takes along what sleeps in its way") {
+  for (const double speed : {2.0, 40.0}) {
+    CAPTURE(speed);
+    RigidWorld w;
+    w.gravity.setZero();
+    const uint32_t k = add_falling_wall(w, box(1, 0.002, 1), 1.1 + speed, speed);
+    scatter_balls(w, 40, true);
+    w.run(0.9);
+    CHECK(w.awake() == 0);
+    w.run(0.1 + 2.3 / speed + 2 * w.h);
+    CHECK(w.bodies[k].pose.x.y() < -1);
+    CHECK(left_behind(w, w.bodies[k].pose.x.y()) == 0);
+  }
+}
+
+TEST_CASE("what a kinematic wall takes along is held by what is fixed") {
+  RigidWorld w;
+  w.gravity.setZero();
+  w.fixed(box(1, 0.002, 1), {0, -0.5, 0});
+  add_falling_wall(w, box(1, 0.002, 1), 3, 60);
+  for (const double x : {-0.2, 0.1}) w.add(body(sphere(0.005), {x, -0.3, 0}));
+  w.run(0.1);
+  for (const RigidBody& b : w.bodies)
+    if (b.dynamic()) CHECK(b.pose.x.y() > -0.5);
+}
+
+TEST_CASE("a turning vane takes along what lies in its way") {
+  RigidWorld w;
+  w.gravity.setZero();
+  BodyDef d = body(box(1, 0.1, 0.002), {0, 0, 0});
+  d.type = BodyType::kinematic;
+  d.angular_velocity = {0, -40, 0};  // 0.67 rad in a tick
+  const uint32_t k = w.add(d);
+  Random r(3);
+  std::vector<uint32_t> balls;
+  for (int i = 0; i < 30; ++i) {
+    const double angle = r.uniform(0.3, 1.2), radius = r.uniform(0.2, 0.8);
+    balls.push_back(
+        w.add(body(sphere(0.005), {radius * std::cos(angle), 0, radius * std::sin(angle)})));
+  }
+  w.run(2.5 * w.h);  // past all of them, before half a turn
+  for (const uint32_t i : balls) {
+    const Vec3 local = w.bodies[k].pose.inverse().point(w.bodies[i].pose.x);
+    CHECK(local.z() > 0);
+  }
+}
 
 TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm" *
           doctest::test_suite("long")) {

@@ -5,8 +5,8 @@
 #include "engine/core/crew.hpp"
 #include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
-#include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/bodies/tolerances.hpp"
+#include "engine/dynamics/realtime/swept_body.hpp"
 #include "engine/dynamics/realtime/swept_pair.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 
@@ -25,40 +25,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Whether a body turns so far in a tick that the shortest way from pose to pose may not be its
-/// way.
-bool winds(const RigidBody& body, double h) {
-  return body.omega.norm() * h > tolerances::winding_of_half_turn * std::numbers::pi;
-}
-
-/// The motion over a tick that ended at `body.pose`.
-Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
-  Motion m = Motion::between(start, body.pose, 0, h);
-  // More than half a turn looks like less: the angular velocity knows.
-  if (winds(body, h)) m.omega = body.omega;
-  return m;
-}
-
 bool triangles(const Shape& a, const Shape& b) {
   return (a.is_mesh() || b.is_mesh()) && a.polyhedral() && b.polyhedral();
-}
-
-/// How far a body may come in a tick before it is watched [m]: as far as its contacts foresee, but
-/// a thin convex one, which has no inside to be pushed out of, by no more than a fiftieth of its
-/// size.
-double unwatched(const RigidBody& body) {
-  constexpr double share = tolerances::thin_of_size;
-  const bool thin = body.inner_radius < share * body.bounding_radius &&
-                    std::all_of(body.shapes.begin(), body.shapes.end(),
-                                [](const BodyShape& s) { return !s.shape->is_mesh(); });
-  return thin ? share * body.bounding_radius : foresight(body);
-}
-
-/// The same of one of its shapes, which may be small beside the body.
-double unwatched(const RigidBody& body, const Shape& shape) {
-  const double own =
-      std::max(shape.inner_radius(), tolerances::foresight_of_radius * shape.bounding_radius());
-  return std::min(unwatched(body), own);
 }
 
 /// How fast the set of a body's points turns [rad/s]: without the spin of what is round about an
@@ -72,14 +40,6 @@ double swing(const RigidBody& body, const Motion& m) {
       s.pose.x.cross(axis).norm() > tolerances::axis_through_centre * body.bounding_radius)
     return m.omega.norm();
   return m.omega.cross(m.start.direction(axis)).norm();
-}
-
-/// Sets a body to an earlier pose. Its angular velocity goes with it, so that its energy stays:
-/// with the moments of inertia of another orientation a needle would have many times as much.
-void put_back(RigidBody& body, const Pose& pose) {
-  if (!isotropic_inertia(body.inertia_body))
-    body.omega = pose.direction(body.pose.inverse_direction(body.omega));
-  body.pose = pose;
 }
 
 }  // namespace
@@ -96,7 +56,13 @@ void ContinuousStage::remember(std::span<const RigidBody> bodies,
                                bool everything) {
   gravity_ = gravity;
   involved_.assign(involved.begin(), involved.end());
-  note_stale(bodies.size(), everything || starts_.size() != bodies.size());
+  const bool any = everything || starts_.size() != bodies.size();
+  note_stale(bodies.size(), any);
+  if (any) {
+    least_unwatched_ = never;
+    for (const RigidBody& body : bodies)
+      if (body.dynamic()) least_unwatched_ = std::min(least_unwatched_, unwatched(body));
+  }
   starts_.resize(bodies.size());
   for_chunks(crew, involved.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t i : involved.subspan(first, last - first))
@@ -105,13 +71,10 @@ void ContinuousStage::remember(std::span<const RigidBody> bodies,
 }
 
 bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const {
-  const auto slow = [h](const RigidBody& body, const Pose& start) {
-    if (!body.awake() || !body.dynamic()) return true;
-    if (winds(body, h)) return false;
-    // The angle is 2 asin(sine) <= pi sine.
-    const double sine = (body.pose.q * start.q.conjugate()).vec().norm();
-    const double turn = std::min(3.2 * sine, 2.0) * body.bounding_radius;
-    return (body.pose.x - start.x).norm() + turn < unwatched(body);
+  const auto slow = [this, h](const RigidBody& body, const Pose& start) {
+    if (!is_active(body)) return true;
+    if (!body.dynamic()) return !(way_of(body, start, h) > least_unwatched_);
+    return !winds(body, h) && way_of(body, start, h) < unwatched(body);
   };
   std::array<bool, chunk_count> fast{};
   for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
@@ -138,6 +101,7 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
   if (h != h_ || tracks_.size() != bodies.size()) all_stale_ = true;
   h_ = h;
   tracks_.resize(bodies.size());
+  sweeping_.clear();
   if (all_stale_) {
     stale_.resize(bodies.size());
     std::iota(stale_.begin(), stale_.end(), 0u);
@@ -149,13 +113,17 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     const RigidBody& body = bodies[i];
     track.stop = h;
     track.fast = false;
+    track.carrier = none;
     if (!is_active(body)) {
       track.motion = Motion::at_rest(body.pose, 0, h);
       continue;
     }
     const Pose& start = starts_[i].pose;
     track.motion = tick_motion(start, body, h);
-    if (!body.dynamic()) continue;
+    if (!body.dynamic()) {
+      if (way_of(body, start, h) > least_unwatched_) sweeping_.push_back(i);
+      continue;
+    }
     const double turn = std::min(track.motion.omega.norm() * h, 2.0) * body.bounding_radius;
     track.fast = (body.pose.x - start.x).norm() + turn > unwatched(body);
     stats.fast += track.fast;
@@ -184,21 +152,22 @@ bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, S
   return straight + turning > allowed;
 }
 
-void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
+Aabb ContinuousStage::swept_bounds(const RigidBody& body, uint32_t slot, uint32_t shape) const {
+  const BodyShape& part = body.shapes[shape];
+  Aabb bounds = part.shape->bounds(body.pose * part.pose);
+  if (!is_active(body)) return bounds;
+  bounds.include(part.shape->bounds(starts_[slot].pose * part.pose));
   const Motion& m = tracks_[slot].motion;
   // Where the angular velocity stands in for many turns, the end of the motion is elsewhere.
   const double angle = m.omega.norm() * (m.t1 - m.t0);
-  const double height =
-      winds(body, h_) ? 2 * body.bounding_radius : arc_height(angle, body.bounding_radius);
+  return bounds.inflated(winds(body, h_) ? 2 * body.bounding_radius
+                                         : arc_height(angle, body.bounding_radius));
+}
+
+void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
   for (uint32_t s = 0; s < body.shapes.size(); ++s) {
-    const Shape& shape = *body.shapes[s].shape;
-    Aabb bounds = shape.bounds(body.pose * body.shapes[s].pose);
-    if (is_active(body)) {
-      bounds.include(shape.bounds(starts_[slot].pose * body.shapes[s].pose));
-      bounds = bounds.inflated(height);
-    }
     const uint32_t at = proxies_.first[slot] + s;
-    proxies_.proxies[at] = {bounds, tracks_[slot].fast};
+    proxies_.proxies[at] = {swept_bounds(body, slot, s), tracks_[slot].fast};
     proxies_.refs[at] = {slot, s};
     (tracks_[slot].fast ? proxies_.news.moving : proxies_.news.settled).push_back(at);
   }
@@ -242,9 +211,12 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candida
   const BodyShape& sb = b.shapes[c.b.shape];
   const double size = std::min(a.bounding_radius, b.bounding_radius);
   // Meshes may have no inside at all: some depth must pass as shallow.
-  const double inner =
-      std::max(std::min(ta.fast ? a.inner_radius : never, tb.fast ? b.inner_radius : never),
-               tolerances::thin_pair_of_radius * size);
+  const bool neither = !ta.fast && !tb.fast;
+  const auto inside = [neither](const RigidBody& body, bool fast) {
+    return body.dynamic() && (fast || neither) ? body.inner_radius : never;
+  };
+  const double inner = std::max(std::min(inside(a, ta.fast), inside(b, tb.fast)),
+                                tolerances::thin_pair_of_radius * size);
   const double shallow = tolerances::shallow_depth * inner;
   // Contacts of two surfaces of triangles know the way out up to the full thickness of both.
   const bool surfaces = triangles(*sa.shape, *sb.shape);
@@ -355,34 +327,25 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
     RigidBody& body = bodies[i];
     if (track.stop >= h) {
       // Where the angular velocity stood in for many turns it ends elsewhere.
-      if (track.fast && watched[i] && winds(body, h)) put_back(body, track.motion.carrier(h));
+      if (track.fast && watched[i] && winds(body, h)) put_at(body, track.motion.carrier(h));
       continue;
     }
     ++stats.stopped;
     const Vec3 a_free = body.gravity_scale * gravity_ + body.inverse_mass * body.force;
     const bool flew =
         (body.v - starts_[i].v - h * a_free).norm() < tolerances::free_flight * (1 + body.v.norm());
-    put_back(body, track.motion.carrier(track.stop));
+    put_at(body, track.motion.carrier(track.stop));
     // What gravity would have added on the way that it did not go must not stay with it.
     if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
   }
 }
 
-ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
-                                       double h, const RealtimeSettings& settings, Crew& crew,
-                                       const ContinuousMethods& methods) {
-  ContinuousStats stats;
-  methods_ = methods;
-  if (!settings.continuous || starts_.size() != bodies.size()) return stats;
-  if (all_slow(bodies, h, crew)) return stats;
-  find_fast(bodies, h, stats);
-  if (stats.fast == 0) {
-    if (all_stale_) stale_.clear();
-    return stats;
-  }
+/// Stops fast bodies at what is in their way.
+void ContinuousStage::hold_fast(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
+                                Crew& crew, ContinuousStats& stats) {
   broad_phase.use_threads(&crew);
   find_candidates(bodies, broad_phase);
-  stats.tested = candidates_.size();
+  stats.tested += candidates_.size();
   crew.each(candidates_.size(), [&](size_t i) {
     Candidate& c = candidates_[i];
     // Pairs that move together are timed only when one of them is stopped.
@@ -393,6 +356,22 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   for (const Candidate& c : candidates_)
     if (c.held && c.thin && c.stop.deepens)
       stop_approach(bodies[c.a.body], bodies[c.b.body], c.stop.at, c.stop.normal);
+}
+
+ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& broad_phase,
+                                       double h, const RealtimeSettings& settings, Crew& crew,
+                                       const ContinuousMethods& methods) {
+  ContinuousStats stats;
+  methods_ = methods;
+  woken_.clear();
+  if (!settings.continuous || starts_.size() != bodies.size()) return stats;
+  if (all_slow(bodies, h, crew)) return stats;
+  find_fast(bodies, h, stats);
+  if (stats.fast > 0)
+    hold_fast(bodies, broad_phase, h, crew, stats);
+  else if (all_stale_)
+    stale_.clear();
+  if (!sweeping_.empty()) carry_along(bodies, h, crew, stats);
   return stats;
 }
 

@@ -18,6 +18,7 @@ void TickReport::add_group(const TickReport& group) {
   continuous.fast += group.continuous.fast;
   continuous.tested += group.continuous.tested;
   continuous.stopped += group.continuous.stopped;
+  continuous.carried += group.continuous.carried;
 }
 
 void TickReport::set_groups(const TickReport& sum, const ContactSet& all) {
@@ -77,7 +78,9 @@ void RealtimeTick::sweep(double part, const RealtimeSettings& tuning) {
     report.continuous =
         continuous.apply(bodies, path_broad_phase, part, tuning, crew, continuous_methods);
   }
-  if (report.continuous.fast > 0) listener.put_back();  // else nothing was moved
+  roster.add(continuous.woken());
+  // Else nothing was moved.
+  if (report.continuous.fast + report.continuous.carried > 0) listener.put_back();
 }
 
 void RealtimeTick::sleep() {
