@@ -176,7 +176,8 @@ TEST_CASE("event: overlap from before never grows, and is worked off at the spee
   CHECK(std::fabs(upper) < 1e-7);
 }
 
-TEST_CASE("event: the contacts saved and loaded go on with the same bits") {
+TEST_CASE("event: the contacts saved and loaded go on with the same bits" *
+          doctest::test_suite("long")) {
   EventWorld w;
   w.floor(0.4, 0.2);
   w.add(body(box(0.3, 0.2, 0.4), {0, 0.3, 0}, 0.4, 0.2));

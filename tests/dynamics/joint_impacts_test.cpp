@@ -108,7 +108,8 @@ TEST_CASE("a ball that hits a link bounces off the whole mechanism") {
       }
 }
 
-TEST_CASE("a chain of links in a room gains no energy where everything bounces") {
+TEST_CASE("a chain of links in a room gains no energy where everything bounces" *
+          doctest::test_suite("long")) {
   // Before a blow was bounded by what its contacts took, single ticks gained up to a quarter, and a
   // chain half of its energy in 5 s.
   for (const bool ordinary : {false, true})

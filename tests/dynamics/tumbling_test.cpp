@@ -130,7 +130,8 @@ TEST_CASE("tumbling: a cylinder's rim on a box's edges and corners, and between 
   }
 }
 
-TEST_CASE("tumbling: coins that wobble, land flat and roll stay on the floor") {
+TEST_CASE("tumbling: coins that wobble, land flat and roll stay on the floor" *
+          doctest::test_suite("long")) {
   for (const double tilt : {1.2, 0.5, 0.1, 0.01, 0.0}) {
     EventWorld w;
     w.floor(0.4, 0.2);

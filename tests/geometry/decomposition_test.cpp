@@ -302,7 +302,7 @@ TEST_CASE("open, crossing and flat meshes are refused with the reason, and limit
   CHECK(decompose_exactly(cup()).error().code == ErrorCode::cancelled);
 }
 
-TEST_CASE("a decomposition is stopped anywhere, and soon") {
+TEST_CASE("a decomposition is stopped anywhere, and soon" * doctest::test_suite("long")) {
   // Looks count what it does between them: it asks before each hull, sample and candidate.
   StopFlag flag;
   const Stoppable stoppable(&flag);

@@ -337,7 +337,7 @@ TEST_CASE("event world: heaps of balls and boxes overlap by no more than 1e-5 m"
       heap.push_back(w.add(with_material(def, 0.4, 0.2)));
     }
     double deepest = 0;
-    for (int i = 0; i < test::graded_count(180, 100, 30); ++i) {
+    for (int i = 0; i < test::graded_count(180, 80, 30); ++i) {
       w.step();
       for (size_t j = 0; j < heap.size(); ++j) {
         const RigidBody& a = w.body(heap[j]);

@@ -362,7 +362,8 @@ Slide slide(int hz, double stretch, double friction, double speed, double belt, 
 
 }  // namespace
 
-TEST_CASE("a cloth slides over the ground as a block does, and stays flat") {
+TEST_CASE("a cloth slides over the ground as a block does, and stays flat" *
+          doctest::test_suite("long")) {
   // It has about 0.03 J of kinetic energy at 1 m/s, of which waves would make elastic energy.
   for (const int hz : {60, 240, 960})
     for (const double stretch : {20.0, 200.0, 5000.0})
