@@ -20,8 +20,8 @@ struct BroadPhaseProxy {
   bool moving = false;  ///< pairs of two proxies that do not move are not reported
 };
 
-/// What a list of proxies that is kept from call to call says of itself, so that nobody need look
-/// at those that rest.
+/// What has changed in a list of proxies since it was last updated, so that those at rest need not
+/// be visited.
 struct ProxyNews {
   uint64_t number = 0;           ///< one more with every update of the list
   bool all = true;               ///< any proxy may be another than in the update before

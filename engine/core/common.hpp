@@ -1,5 +1,5 @@
 #pragma once
-/// What nearly every source of the house includes, compiled once (tumble_precompile in the top
+/// What nearly every source of the house includes, compiled once (tumble_compile in the top
 /// CMakeLists.txt). Not to be included by hand: a source names what it uses, and must compile
 /// without this. Only headers of others: what changes with our work would compile everything anew.
 #include <algorithm>

@@ -31,7 +31,8 @@ class PressedNets {
   bool pulls(size_t force) const {
     return force >= pulled_apart_.size() || pulled_apart_[force] == 0;
   }
-  /// Blocks of particles being there: makes links(), and marks who looks far for contacts.
+  /// After the blocks of particles are appended: makes links(), and marks the particles that look
+  /// for contacts along their whole way.
   void tie_blocks(std::vector<RigidBody>& bodies);
   /// Between all that springs of these nets tie.
   std::span<const BodyLink> links() const { return links_; }

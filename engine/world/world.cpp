@@ -75,7 +75,7 @@ Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
     if (!stepped) {
       --s.tick;
       s.before.backup.restore(s);
-      s.laid_asleep = true;  // whoever was has not looked around
+      s.laid_asleep = true;  // bodies made asleep have not looked for contacts yet
     }
   }
   if (!stepped) {

@@ -10,7 +10,7 @@
 namespace tumble {
 
 /// Everything a key can ask for. Adding one: a line here, its name and its keys in key_map.cpp, its
-/// effect in app/actions.cpp.
+/// effect in viewer/app/window/actions.cpp.
 enum class Action : uint8_t {
   toggle_pause,
   step_forward,

@@ -28,7 +28,7 @@ struct ContactUpdateStats {
 /// What the narrow phase saw of some pairs.
 struct Sights {
   std::vector<Manifold> manifolds;
-  std::vector<ShapesOfPair> shapes;  ///< of each manifold of pairs of which a side has several
+  std::vector<ShapesOfPair> shapes;  ///< by manifold, where a body of the pair has several shapes
   std::vector<CachedPair>
       seen;  ///< of pairs whose contacts may be carried along, or that are apart
   std::vector<CachedShapes> pieces;

@@ -20,16 +20,16 @@ bool made_of_planes(const Shape& shape);
 /// What pairs ask of one body, or of one of its shapes, gathered once a tick: in a heap each takes
 /// part in many pairs, and bodies are large.
 struct PairSide : SideSurface {
-  /// Of the shape in the world; of a body that is paired as a whole that of the body.
+  /// Pose of the shape in the world; of a body that is paired as a whole, pose of the body.
   Pose shape_pose;
   Pose body_pose;  ///< of the body
   /// Of the shape at the end of the tick, if nothing but gravity acts; of a kinematic body, for how
   /// it turns is not foreseen, and of a whole one, that of its centre [m/s].
   Vec3 end_velocity = Vec3::Zero();
-  /// ShapeTurning::reach; of a whole body how far it turns about its centre; of a kinematic one 0
-  /// [m].
+  /// ShapeTurning::reach; of a body that is paired as a whole, how far its rotation about the
+  /// centre moves any point; of a kinematic one 0 [m].
   double turning = 0;
-  /// tumble::foresight; infinite of what nothing moves, or looks far [m].
+  /// tumble::foresight; infinite of immovable bodies, and of those that look far [m].
   double foresight = 0;
   double margin = 0;        ///< contact_margin [m]
   double radius = 0;        ///< RigidBody::bounding_radius [m]

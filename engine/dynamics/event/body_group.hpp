@@ -28,7 +28,8 @@ struct BodyGroup {
   /// [m]. What goes farther than its reach may have missed somebody.
   std::vector<double> max_displacement;
   GroupBooks books;  ///< of this tick; empty without EventContext::rates
-  /// When there had been more steps than were allowed [s]; the bodies are anywhere.
+  /// The time of the tick at which the group had taken more steps than were allowed [s]; the poses
+  /// of its bodies are undefined then.
   std::optional<double> given_up;
   bool scattered = false;     ///< goes through the tick in windows: see GroupWindows
   bool time_stepped = false;  ///< goes through the whole tick by TimeStepping
@@ -63,7 +64,7 @@ struct EventStats {
   void include(const EventStats& s);
 };
 
-/// What it needs to know besides the bodies.
+/// What a group needs to know besides its bodies.
 struct EventContext {
   EventSettings settings;
   ImpactLaw law = nullptr;             ///< of settings.impulses

@@ -31,7 +31,7 @@ struct DrivePart {
   bool limit() const { return kind == Kind::lower || kind == Kind::upper; }
   /// The sign of the velocity that leads away from a limit.
   double inwards() const { return kind == Kind::lower ? 1 : -1; }
-  /// Whether it holds with all the force that it has.
+  /// Whether its force is at a bound.
   bool saturated() const;
 };
 

@@ -22,8 +22,8 @@ struct EventSettings {
     v.field(d.impulses, {.name = "impulses", .doc = "law of simultaneous collisions"});
     v.field(d.contact_solver,
             {.name = "contact_solver",
-             .doc = "complementarity solver of contact forces; automatic: dantzig without "
-                    "friction, else cone_newton"});
+             .doc = "complementarity solver of contact forces that is tried first; automatic: "
+                    "what suits the problem, then the others until one finds the forces"});
     v.field(d.friction_cone,
             {.name = "friction_cone", .doc = "circular, or a pyramid for comparison"});
     v.field(d.tolerance, {.name = "tolerance",

@@ -31,10 +31,10 @@ struct TimeSteppedParticle {
 };
 
 /// The motion of all bodies over one tick of the `event` stepper: groups of bodies that may meet in
-/// it go through their own events, independently of each other. A group that has more events than
-/// its budget, or to which an event gives no way on, goes back to the start of the tick and through
-/// the whole of it by time-stepping; and since its motion may bring it to where others are, those
-/// that it may meet go with it.
+/// it go through their own events, independently of each other. A group whose events cost more work
+/// than its budget, or to which an event gives no way on, goes back to the start of the tick and
+/// through the whole of it by time-stepping; and since its motion may bring it to where others are,
+/// those that it may meet go with it.
 class EventStepper {
  public:
   /// `links` tie bodies together: springs, joints of the context, what couples these. `context`

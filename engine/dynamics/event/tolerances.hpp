@@ -93,7 +93,7 @@ inline constexpr double box_rounding_of_size = 1e-6, axis_rounding = 1e-14;
 
 /// What a dip between two looks at a pair may hide [m]; of small bodies this share of the size.
 inline constexpr double deepest_dip = 5e-6, dip_of_size = 1e-4;
-/// Spare of the angular speeds at a step's ends as a bound on those between [-].
+/// The greater of the angular speeds at both ends of a step, times this, bounds those between [-].
 inline constexpr double swing_spare = 1.25;
 /// Distance of the axis of a round shape from the centre, of the radius, that is rounding [-].
 inline constexpr double round_axis_of_radius = 1e-12;
@@ -198,7 +198,7 @@ inline constexpr uint8_t first_waited_ticks = 4, most_waited_ticks = 32;
 inline constexpr double retried_share = 0.25;
 /// How often a tick may be halved [-]: to four microseconds.
 inline constexpr int most_window_halvings = 12;
-/// Steps of a crowded cluster, more than which it takes the window in two halves [-].
+/// A crowded cluster that takes more steps than this goes through the window in two halves [-].
 inline constexpr uint64_t few_steps = 8;
 /// Gaps up to this many reaches are measured [-].
 inline constexpr double looks_ahead = 4;

@@ -18,7 +18,7 @@ void carry(RigidBody& body, double h);
 void store_bodies(const SolverContext& context, const SolverIsland& island);
 
 /// One step of torque-free rotation: `q` and world `omega` after `h`, for the angular momentum that
-/// they had. Midpoint rule on the rotation group, two corrections.
+/// they had. Midpoint rule on the rotation group, by `midpoint_iterations` fixed-point iterations.
 void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h);
 
 }  // namespace tumble

@@ -32,10 +32,12 @@ struct RealtimeSettings {
                              .max = 256,
                              .doc = "sub-steps per tick of groups that are solved precisely, as "
                                     "far as their size allows"});
-    v.field(d.precise, {.name = "precise",
-                        .doc = "all groups of touching or jointed bodies are solved precisely, in "
-                               "max_substeps sub-steps and double precision; else small ones, and "
-                               "those of small, thin, or heavy on light bodies"});
+    v.field(d.precise,
+            {.name = "precise",
+             .doc = "all groups of touching or jointed bodies are solved precisely, in "
+                    "max_substeps sub-steps and double precision; else small ones, those "
+                    "with couplings or springs, and those of small, thin, weightless, or "
+                    "heavy on light bodies"});
     v.field(d.max_parts, {.name = "max_parts",
                           .min = 1,
                           .max = 64,

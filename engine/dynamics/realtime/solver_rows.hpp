@@ -53,7 +53,7 @@ Softness soft_step(double frequency, double damping_ratio, double h);
 
 struct ContactSoftness {
   Softness soft;
-  Softness hard;  ///< where contacts may be twice as stiff
+  Softness hard;  ///< of contacts with twice the frequency (is_hard)
 };
 ContactSoftness contact_softness(const RealtimeSettings& settings, double hs);
 /// Whether a contact is as stiff as it may be: against what cannot give way, and where two round

@@ -34,7 +34,7 @@ class TickParts {
   };
   void find(const Tick& tick, const RealtimeSettings& settings);
 
-  /// Those that occur, ascending; one at least.
+  /// The numbers of parts that occur, ascending; at least one.
   std::span<const int> numbers() const {
     static constexpr int one[] = {1};
     return numbers_.empty() ? std::span<const int>(one) : numbers_;
@@ -43,7 +43,7 @@ class TickParts {
   /// Of a body; 0 where it sleeps far from all that is active, and of what is fixed. Where there is
   /// one number only nothing else is known.
   int of(uint32_t slot) const { return of_[slot]; }
-  /// Who has none and is active now was woken by bodies of this number.
+  /// Bodies without a number that are active now were woken by bodies of this number.
   void take_in(std::span<const uint32_t> active, int number);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// What nothing rigid can bear.
+/// Proof that bodies which cannot yield press others together.
 struct Crush {
   std::vector<double> shares;  ///< by point: the impulse of the proof, of the greatest of them
   /// What the approach works against these [m/s]; of two plates that come together, each with all

@@ -6,8 +6,8 @@ namespace tumble::lcp {
 /// Whether some group of a problem slides.
 bool slides(const LcpProblem& problem);
 
-/// Where there is no solution ever greater z are nearly one, measured by themselves: what is off
-/// must be little beside b.
+/// Whether the residuals are small relative to b. Where no solution exists z may grow without
+/// bound, so that residuals relative to its own terms become small and prove nothing.
 bool balances(const LcpProblem& problem, const LcpSolution& solution);
 
 /// Sliding groups may be hard to solve, as A with the slopes in it is neither symmetric nor

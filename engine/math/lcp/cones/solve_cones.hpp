@@ -50,7 +50,7 @@ struct ConeStage {
 const std::vector<ConeStage>& all_cone_stages();
 
 /// One stage after the other that applies, until the problem is solved, or proved to have no
-/// solution. Nothing is done without a word in `attempts`.
+/// solution. Every attempt is listed in `attempts`.
 ConeAnswer solve_cones(ConeTask& task);
 
 /// The problem without its lateral unknowns, by dantzig(), for a symmetric A. Where it has no
