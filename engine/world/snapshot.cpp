@@ -16,12 +16,15 @@ constexpr uint32_t version = 1;
 /// have several shapes.
 constexpr uint32_t contacts_version = 7;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
-/// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains.
-constexpr uint32_t particles_version = 7;
+/// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains. 8: mass at birth,
+/// trails.
+constexpr uint32_t particles_version = 8;
 constexpr uint32_t grain_touches_version = 3;
-constexpr uint32_t sensors_version = 1;
+/// 2: radial distributions.
+constexpr uint32_t sensors_version = 2;
 /// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
-constexpr uint32_t emitters_version = 5;
+/// 6: values over time, mass over life; when bodies were born, what they touch, births asked for.
+constexpr uint32_t emitters_version = 6;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
@@ -43,7 +46,8 @@ constexpr uint32_t ledger_version = 5;
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
 /// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
 /// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
-constexpr uint32_t queue_version = 17;
+/// 18: emitters as in version 6 of theirs; spins of particles; sensors as in version 2; trails.
+constexpr uint32_t queue_version = 18;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -188,6 +192,15 @@ void write_emitters(ByteWriter& out, const WorldState& s) {
     for (const Emitter::OwnBody& b : e.bodies) {
       out.value(b.id);
       out.value(b.dies);
+      out.value(b.born);
+      out.vector(b.touching);
+    }
+    out.value(uint64_t(e.asked.size()));
+    for (const Emitter::Asked& a : e.asked) {
+      out.value(a.x);
+      out.value(a.v);
+      out.value(a.time);
+      out.value(a.count);
     }
   }
   s.sinks.ids.save(out);
@@ -211,6 +224,16 @@ void read_emitter(ByteReader& in, WorldState& s, Emitter& e) {
     Emitter::OwnBody& b = e.bodies.emplace_back();
     in.value(b.id);
     in.value(b.dies);
+    in.value(b.born);
+    in.vector(b.touching);
+  }
+  const auto asked = in.get<uint64_t>();
+  for (uint64_t i = 0; i < asked && in.ok(); ++i) {
+    Emitter::Asked& a = e.asked.emplace_back();
+    in.value(a.x);
+    in.value(a.v);
+    in.value(a.time);
+    in.value(a.count);
   }
 }
 

@@ -20,6 +20,7 @@ enum class SensorKind : uint8_t {
   gate,     ///< what goes through a flat shape, and which way
   region,   ///< what is in a solid shape
   contact,  ///< whether a body touches another, or anything
+  radial,   ///< at what distances from each other particles are
 };
 
 /// Forms of gates (flat, in the plane y = 0 of their frame) and of regions.
@@ -53,6 +54,11 @@ struct SensorDef {
 
   // Contacts.
   BodyId a, b;  ///< b null: any other body
+
+  // Radial distributions, of the particles of `only_systems` together.
+  double range = 1;      ///< greatest distance [m]
+  uint32_t shells = 60;  ///< of equal thickness up to there
+  static constexpr uint32_t most_shells = 100;
 };
 
 /// Says which value is wrong. What it names need not exist.

@@ -32,6 +32,10 @@ struct SensorFrame {
   bool touching = false;
   uint64_t touches = 0;       ///< beginnings of touch since the start
   Vec3 force = Vec3::Zero();  ///< on a, in the mean of the last tick [N]
+
+  // Of a radial distribution.
+  double range = 0;            ///< [m]
+  std::vector<double> shells;  ///< g(r) of shells of equal thickness up to it [-]
 };
 
 /// One of the numbers that a sensor says.
