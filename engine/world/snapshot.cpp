@@ -19,6 +19,8 @@ constexpr uint32_t contacts_version = 7;
 /// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains.
 constexpr uint32_t particles_version = 7;
 constexpr uint32_t grain_touches_version = 3;
+/// 2: numbers that follow courses.
+constexpr uint32_t forces_version = 2;
 constexpr uint32_t sensors_version = 1;
 /// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
 constexpr uint32_t emitters_version = 5;
@@ -42,8 +44,9 @@ constexpr uint32_t ledger_version = 5;
 /// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
 /// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
 /// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
-/// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
-constexpr uint32_t queue_version = 17;
+/// for particles and emitters that there are. 17: bodies as in version 9 of theirs. 18: forces as
+/// in version 2 of theirs.
+constexpr uint32_t queue_version = 18;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -139,7 +142,7 @@ Status read_bodies(ByteReader& in, WorldState& s) {
 }
 
 void write_forces(ByteWriter& out, const WorldState& s) {
-  out.begin_section("forces", version);
+  out.begin_section("forces", forces_version);
   s.force_ids.save(out);
   for (uint32_t i = 0; i < s.force_ids.capacity(); ++i)
     if (s.force_ids.alive(i)) write_force_def(out, *s.forces[i]);
@@ -147,7 +150,7 @@ void write_forces(ByteWriter& out, const WorldState& s) {
 }
 
 void read_forces(ByteReader& in, WorldState& s) {
-  in.begin_section("forces");
+  if (in.begin_section("forces") != forces_version) return in.fail();
   s.force_ids.load(in);
   s.forces.assign(in.ok() ? s.force_ids.capacity() : 0, std::nullopt);
   for (uint32_t i = 0; i < s.forces.size() && in.ok(); ++i)
