@@ -210,11 +210,16 @@ TEST_CASE("what fits keeps its bits") {
 }
 
 TEST_CASE("an axis that stands otherwise on the other body is turned to it") {
-  const Assembled s(
+  const char* const door =
       R"("bodies": {"door": {"shape": {"type": "box", "size": [1, 2, 0.1]}, "position": [0.6, 0, 0]}},
     "joints": {"hinge": {"kind": "revolute", "b": "door", "axis": [0, 1, 0], "anchor_b": [-0.5, 0, 0],
-      "axis_on_b": [0.1, 1, 0]}})");
+      "axis_on_b": [0.1, 1, 0]}})";
+  const Assembled s(door);
   const Vec3 axis = s.body("door").pose.direction(Vec3(0.1, 1, 0).normalized());
   CHECK((axis - Vec3::UnitY()).norm() < 1e-12);
   CHECK(s.point("door", {-0.5, 0, 0}).norm() < 1e-12);
+  const Assembled off(door, false);
+  REQUIRE(off.scene.warnings.size() == 2);
+  CHECK(off.scene.warnings[0].find("joints.hinge: its ends begin 0.1 m off; the run takes") == 0);
+  CHECK(off.scene.warnings[1].find("joints.hinge: its ends begin 5.7") == 0);
 }

@@ -14,7 +14,7 @@ namespace tumble {
 namespace {
 
 /// Joints are closed that are open by no more: of the distances in the scene, and of a metre and a
-/// radian [-]; a thousand roundings.
+/// radian [-]; a few thousand roundings. Likewise velocities.
 constexpr double closed = 1e-12;
 /// Newton's method goes on while it gains, to here: where it converges it gets to rounding.
 constexpr double closed_well = 1e-14;
@@ -56,7 +56,11 @@ class Assembly {
   void hold_velocities() {
     std::vector<DofBlock> moving = blocks_of(held_.bodies, slots_);
     rows_.update(held_.bodies, moving);
-    if (rows_.rates_held(moving)) return;
+    double off = 0, fastest = 1;
+    for (const DofBlock& b : moving) fastest = std::max({fastest, b.v.norm(), b.omega.norm()});
+    for (size_t i = 0; i < rows_.size(); ++i)
+      off = std::max(off, std::fabs(rows_.rate_off(i, moving)));
+    if (off <= closed * fastest * size_) return;
     std::vector<double> impulses(rows_.size(), 0);
     rows_.hold_velocities(moving, impulses);
     for (size_t i = 0; i < moving.size(); ++i) {
