@@ -25,6 +25,8 @@ class TimeCourse {
 
   /// NaN where an expression has no finite value.
   double at(double t) const;
+  /// Another expression of the same constants, without the factor. Errors: as of expression().
+  Result<TimeCourse> with_text(std::string text) const;
   /// The same times a factor.
   TimeCourse scaled(double factor) const;
 

@@ -29,6 +29,8 @@ struct BuiltScene {
   std::map<std::string, SensorId, std::less<>> sensors;  ///< "door", "bin[3]"
   std::shared_ptr<const SceneMeshes> meshes;
   std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
+  /// What was moved so that joints fit, a sentence for each body; where the scene asks for that.
+  std::vector<std::string> assembly;
   /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;
 };

@@ -289,14 +289,13 @@ class ReferenceCheck {
         [&](const auto& kind) {
           if constexpr (requires { kind.field.targets; }) acted_on(kind, path);
           if constexpr (requires { kind.between; }) systems(kind.between, path + ".between");
+          if constexpr (requires { kind.anchor; }) anchor(kind.anchor, path + ".anchor");
         },
         f.kind);
     if (const auto* spring = std::get_if<SpringDescription>(&f.kind)) {
       anchor(spring->a, path + ".a");
       anchor(spring->b, path + ".b");
     }
-    if (const auto* pull = std::get_if<MouseSpringDescription>(&f.kind))
-      anchor(pull->anchor, path + ".anchor");
   }
 
   const SceneDescription& scene_;

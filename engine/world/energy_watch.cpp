@@ -10,8 +10,8 @@ namespace tumble {
 namespace {
 
 /// What came in from outside, as the books have it: edits, the user, emitters (and what left with
-/// what was removed), moving bodies, motors, and forces that are no springs. All else that they
-/// know only takes energy, or moves it about.
+/// what was removed), moving bodies, motors, forces that are no springs, and springs that change
+/// over time. All else that they know only takes energy, or moves it about.
 double energy_given(const WorldState& s) {
   double sum = 0;
   for (const LedgerLine line :
@@ -19,7 +19,8 @@ double energy_given(const WorldState& s) {
         LedgerLine::kinematic, LedgerLine::motors, LedgerLine::past_forces})
     sum += s.ledger.line(line).total().balance;
   for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
-    if (i < s.forces.size() && s.forces[i] && !is_spring(*s.forces[i]))
+    if (i < s.forces.size() && s.forces[i] &&
+        (!is_spring(*s.forces[i]) || follows_courses(*s.forces[i])))
       sum += s.ledger.forces()[i].account.total().balance;
   return sum;
 }

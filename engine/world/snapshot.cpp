@@ -20,6 +20,8 @@ constexpr uint32_t contacts_version = 7;
 /// trails.
 constexpr uint32_t particles_version = 8;
 constexpr uint32_t grain_touches_version = 3;
+/// 2: numbers that follow courses.
+constexpr uint32_t forces_version = 2;
 /// 2: radial distributions.
 constexpr uint32_t sensors_version = 2;
 /// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
@@ -47,7 +49,8 @@ constexpr uint32_t ledger_version = 5;
 /// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
 /// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
 /// 18: emitters as in version 6 of theirs; spins of particles; sensors as in version 2; trails.
-constexpr uint32_t queue_version = 18;
+/// 19: forces as in version 2 of theirs.
+constexpr uint32_t queue_version = 19;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -143,7 +146,7 @@ Status read_bodies(ByteReader& in, WorldState& s) {
 }
 
 void write_forces(ByteWriter& out, const WorldState& s) {
-  out.begin_section("forces", version);
+  out.begin_section("forces", forces_version);
   s.force_ids.save(out);
   for (uint32_t i = 0; i < s.force_ids.capacity(); ++i)
     if (s.force_ids.alive(i)) write_force_def(out, *s.forces[i]);
@@ -151,7 +154,7 @@ void write_forces(ByteWriter& out, const WorldState& s) {
 }
 
 void read_forces(ByteReader& in, WorldState& s) {
-  in.begin_section("forces");
+  if (in.begin_section("forces") != forces_version) return in.fail();
   s.force_ids.load(in);
   s.forces.assign(in.ok() ? s.force_ids.capacity() : 0, std::nullopt);
   for (uint32_t i = 0; i < s.forces.size() && in.ok(); ++i)

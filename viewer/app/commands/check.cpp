@@ -179,6 +179,9 @@ int run_check(const CheckLine& line) {
         one["joint_rank"] = rank.rank;
         if (!line.json) fmt::print("{}: {}\n", file, text_of(rank));
       }
+      if (!scene->built.assembly.empty()) one["assembly"] = scene->built.assembly;
+      if (!line.json)
+        for (const std::string& moved : scene->built.assembly) fmt::print("{}: {}\n", file, moved);
       const auto assertions = line.run ? SceneAssertions::make(scene->built) : nullptr;
       if (assertions &&
           !run_assertions(*scene->built.world, *assertions, line.seconds, file, one)) {
