@@ -68,13 +68,14 @@ struct FluidState {
   std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
   /// Of `dfsph`: what makes sums of slopes exact for velocities that are linear in places, and the
   /// gradient and diagonal with it: see find_corrections.
-  std::vector<Mat3> moment, square_matrix;  ///< [-], by density [1/(kg m2)]: see FluidPairSums
-  std::vector<Mat3> correction;             ///< [-]
-  std::vector<Vec3> corrected_gradient;     ///< [1/m]
-  std::vector<double> corrected_diagonal;   ///< [m3/(kg m2)]
-  std::vector<double> slopes;               ///< sum of V f: see FluidList [1/m2]
-  Vec3 origin = Vec3::Zero();               ///< near the fluid, for what is linear in places [m]
-  std::vector<size_t> first_touch;          ///< by place, and one more
+  std::vector<Mat3> moment;                ///< of FluidPairSums [-]
+  std::vector<Mat3> square_matrix;         ///< of the same, over densities [1/(kg m2)]
+  std::vector<Mat3> correction;            ///< [-]
+  std::vector<Vec3> corrected_gradient;    ///< [1/m]
+  std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
+  std::vector<double> slopes;              ///< sum of V f: see FluidList [1/m2]
+  Vec3 origin = Vec3::Zero();              ///< near the fluid, for what is linear in places [m]
+  std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;
 
   std::vector<FluidPairStore> stores;         ///< by chunk
@@ -217,8 +218,8 @@ inline double opened(const FluidState& s, size_t p, const FluidVector& sum) {
 }
 /// The two sums with corrections K, of which each particle has its own:
 ///   sum of V f (p K + p' K') d = p K sum of V f d + (sum of V f p' K') x - sum of V f p' K' x'
-///   sum of V f (u - u') . K d = K : (u (sum of V f d)^T - (sum of V f u') x^T + sum of V f u'
-///   x'^T)
+///   sum of V f (u - u') . K d
+///     = K : (u (sum of V f d)^T - (sum of V f u') x^T + sum of V f u' x'^T)
 /// and what they are made of, as above.
 inline FluidTriple pressing_corrected(const FluidState& s, size_t p, double pressure) {
   const double w = s.volume[p] * pressure;
