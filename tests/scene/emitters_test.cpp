@@ -5,6 +5,8 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/why_not.hpp"
 
+#include <fmt/format.h>
+
 using namespace tumble;
 
 namespace {
@@ -258,6 +260,24 @@ TEST_CASE("a fluid that would fall for ever is a fault, unless it is meant to") 
   built(drop("\"life\": 2, "));
   built(drop("\"gravity_scale\": 0, "));
   built("\"settings\": {\"gravity\": [0, 0, 0]}, " + drop(""));
+}
+
+TEST_CASE("a fluid of two spacings is a fault") {
+  const auto two = [](double spacing) {
+    return fmt::format(
+        "\"particles\": {{\"w\": {{\"gravity_scale\": 0, \"fluid\": {{}}, \"fill\": ["
+        "{{\"type\": \"lattice\", \"size\": [0.2, 0.2, 0.2], \"spacing\": 0.05}}, "
+        "{{\"type\": \"lattice\", \"centre\": [0.3, 0, 0], \"size\": [0.2, 0.2, 0.2], "
+        "\"spacing\": {}}}]}}}}",
+        spacing);
+  };
+  built(two(0.05));
+  built(two(0.06));
+  const std::string fault = fault_of(two(0.1));
+  CHECK_MESSAGE(fault.find("particles.w: particles of this fluid have spacings from 0.05 m to "
+                           "0.1 m") != std::string::npos,
+                fault);
+  CHECK(fault.find("fill all of it with about the same \"spacing\"") != std::string::npos);
 }
 
 TEST_CASE("crowds by events are counted before the run, and collisions need to be looked for") {
