@@ -14,7 +14,7 @@ namespace tumble {
 /// it in opposite directions, and the triangles about a vertex form one fan. Vertices stand where
 /// the field, linear along the edges, is 0, but never within a millionth of an edge of a node, so
 /// that no triangle has coinciding corners. Empty for a field that is negative nowhere. Vertices
-/// and triangles are in the order of the grid.
+/// and triangles are in the order of the grid. Empty when stopped, too (engine/core/stop.hpp).
 TriangleMesh isosurface(const SparseField& field);
 
 }  // namespace tumble

@@ -24,6 +24,13 @@ class SceneMeshes {
   std::map<std::string, MeshParts, std::less<>> parts_;
 };
 
+/// The mesh, or the wrap of it that takes its place where one is asked for, which `warnings` are
+/// told of; null after a fault at `path`, or without a mesh.
+std::shared_ptr<const TriangleMesh> wrapped(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            const std::optional<WrapDescription>& wrap,
+                                            const std::string& path, const FaultSink& sink,
+                                            std::vector<std::string>& warnings);
+
 /// What a description asks for, of a mesh with these bounds.
 MeshRepresentation representation_of(const MeshModeDescription& d, const Aabb& bounds);
 
