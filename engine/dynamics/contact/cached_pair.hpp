@@ -36,7 +36,7 @@ class MotionSince {
 
  private:
   Pose back_;  ///< maps present positions to those of then
-  /// 2 sin(angle / 2): displacement by the rotation for a unit distance from its axis
+  /// 2 sin(angle / 2): displacement by the rotation for a unit distance from its axis.
   double turn_;
 };
 

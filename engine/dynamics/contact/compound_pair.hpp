@@ -53,7 +53,7 @@ class CompoundPair {
   Pose now_;  ///< relative_pose
   /// PairContacts::reach of the bodies: how far apart what touches within the tick may be [m]
   double reach_;
-  /// how much farther the narrow phase searches, so that its result survives some motion [m]
+  /// How much farther the narrow phase searches, so that its result survives some motion [m]
   double slack_ = 0;
   std::optional<bool> hold_;           ///< contacts_hold, once asked for
   std::optional<Motion> motion_;       ///< the last one computed

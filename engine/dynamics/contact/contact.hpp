@@ -47,10 +47,10 @@ struct ContactPoint {
 /// What the points of a contact share.
 struct ContactHead {
   ContactKey key;
-  /// the shapes that touch; where several pairs of shapes share the contact, the first pair
+  /// The shapes that touch; where several pairs of shapes share the contact, the first pair.
   ShapesOfPair shapes;
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
-  /// the same in A's body axes, as of when the narrow phase last ran
+  /// The same in A's body axes, as of when the narrow phase last ran.
   Vec3 normal_a = Vec3::UnitY();
   double friction = 0;     ///< combined [-]
   double restitution = 0;  ///< combined [-]
@@ -106,7 +106,7 @@ struct CachedShapes {
   ContactKey pair;  ///< CachedPair::pair
   ShapesOfPair shapes;
   Pose relative;  ///< pose of the sides of the pair, as in CachedPair
-  /// all gaps up to this were found; where none was, the shapes are farther apart [m]
+  /// All gaps up to this were found; where none was, the shapes are farther apart [m]
   double margin = 0;
   ClosestFeatures closest;  ///< Manifold::closest, if they touch
   bool touch = false;       ///< gaps were found

@@ -22,7 +22,7 @@ struct ContactCertificate {
   double gap = 0;               ///< negative is penetration [m]
   double offset = 0;            ///< accepted depth: overlap that existed when the contact began [m]
   double normal_velocity = 0;   ///< rate of the gap [m/s]
-  /// velocity of B relative to A in the tangent plane, less that of belts [m/s]
+  /// Velocity of B relative to A in the tangent plane, less that of belts [m/s]
   Vec3 slip_velocity = Vec3::Zero();
   double normal_acceleration = 0;         ///< second derivative of the gap [m/s2]
   Vec3 slip_acceleration = Vec3::Zero();  ///< of B relative to A in the tangent plane [m/s2]
@@ -34,7 +34,7 @@ struct ContactCertificate {
   /// The smaller of normal force and normal acceleration (realtime: normal velocity), each divided
   /// by the greatest one among the bodies of the same problem: 0 if the two are complementary [-].
   double complementarity = 0;
-  /// residual of the whole problem that gave the force, by the validator of its solver [-]
+  /// Residual of the whole problem that gave the force, by the validator of its solver [-]
   double residual = 0;
   std::string_view solver;  ///< name of the solver that found the force
 };

@@ -19,7 +19,7 @@ namespace tumble {
 
 struct ContactUpdateStats {
   uint64_t pairs = 0;  ///< pairs of shapes, or of whole bodies, whose bounds overlap
-  /// of these, those whose contacts were carried along without the narrow phase
+  /// Of these, those whose contacts were carried along without the narrow phase.
   uint64_t carried = 0;
   uint64_t contacts = 0;  ///< with at least one point
   uint64_t points = 0;
@@ -132,9 +132,9 @@ class ContactSet {
   struct Source {
     ProxyPair pair;
     std::span<const Contact> before;  ///< contacts of the pair in the tick before
-    /// what is remembered of the pair; null where the narrow phase ran
+    /// What is remembered of the pair; null where the narrow phase ran.
     const CachedPair* look = nullptr;
-    /// the contacts are those of `before`, moved with the bodies; otherwise made of manifolds
+    /// The contacts are those of `before`, moved with the bodies; otherwise made of manifolds.
     bool carried = false;
     uint32_t contacts = 0, looks = 0;  ///< number of contacts and of records in `seen` of this pair
   };
@@ -163,7 +163,7 @@ class ContactSet {
   ContactKnowledge kept_;  ///< contacts at the beginning of the tick, if they are no longer in now_
   bool kept_valid_ = false;
   ContactKnowledge old_;  ///< contacts before the last update, if they are not in kept_
-  /// now_ may hold contacts between bodies at rest, which are to be stored away
+  /// now_ may hold contacts between bodies at rest, which are to be stored away.
   bool may_rest_ = true;
   RestingContacts resting_;
   ContactKnowledge settled_, roused_, both_;  ///< scratch

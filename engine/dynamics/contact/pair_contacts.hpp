@@ -45,7 +45,7 @@ class PairContacts {
   double reach(const PairSide& a, const PairSide& b) const;
   /// Result of the narrow phase on two shapes.
   struct Look {
-    /// all gaps up to this were found; where none was, the shapes are farther apart [m]
+    /// All gaps up to this were found; where none was, the shapes are farther apart [m]
     double margin;
     bool none;  ///< no manifold was found
   };

@@ -38,7 +38,7 @@ struct PairSide : SideSurface {
   double shape_radius = 0;
   const Shape* shape = nullptr;
   const RigidBody* several = nullptr;  ///< the body, if it is paired as a whole; otherwise null
-  /// ShapeRef; of a body that is paired as a whole, its first shape
+  /// ShapeRef; of a body that is paired as a whole, its first shape.
   uint32_t body = 0, shape_index = 0;
   bool dynamic = false;
   bool polyhedral = false;  ///< its surface is made of triangles or polygons

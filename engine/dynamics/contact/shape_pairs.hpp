@@ -13,7 +13,7 @@ struct SideShapes {
   const RigidBody& body;
   std::span<const BodyShape> shapes;
   uint32_t first = 0;  ///< index of the first of them in RigidBody::shapes
-  /// over the shapes, if the body is paired as a whole; otherwise null
+  /// Over the shapes, if the body is paired as a whole; otherwise null.
   const BoundsTree* tree = nullptr;
 };
 /// All shapes of a body that is paired as a whole; otherwise the given one.

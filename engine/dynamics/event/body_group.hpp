@@ -20,7 +20,7 @@ struct BodyGroup {
   std::vector<EventPair> pairs;     ///< in order; one side may be fixed
   std::vector<uint32_t> joints;     ///< of EventContext::joints, ascending
   std::vector<uint32_t> couplings;  ///< likewise of EventContext::couplings
-  /// the joints' equations, kept from tick to tick; null: made anew
+  /// The joints' equations, kept from tick to tick; null: made anew.
   Articulation* laid_out = nullptr;
   std::vector<std::pair<uint32_t, uint32_t>> ties;  ///< slots that joints and springs hold together
   std::vector<EventContact> contacts;  ///< contacts at the end of the last tick, later of this one
@@ -55,7 +55,7 @@ struct EventStats {
   uint64_t time_stepped = 0;  ///< groups that TimeStepping moved
   uint64_t impacts = 0;       ///< moments at which impulses acted
   uint64_t steps = 0;         ///< steps of the integrator
-  /// impacts resolved by sequential_impacts because the law of impulses found no answer
+  /// Impacts resolved by sequential_impacts because the law of impulses found no answer.
   uint64_t fallbacks = 0;
   uint64_t jams = 0;         ///< sliding points that only an impulse could stop
   uint64_t substituted = 0;  ///< steps in which another solver answered than the chosen one
@@ -86,7 +86,7 @@ struct EventContext {
   /// and the window is halved.
   size_t max_untied_bodies = tolerances::untied_bodies;
   EventSearchTrace* search = nullptr;  ///< record of the search for events; null: none is kept
-  /// null: a group for which events find no solution is an error
+  /// Null: a group for which events find no solution is an error.
   TimeStepping* time_stepping = nullptr;
   double budget_share = 1;  ///< share of the budget that a group may spend [-]
 

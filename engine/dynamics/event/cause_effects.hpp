@@ -58,9 +58,9 @@ using ContactEffects = std::array<CauseEffect, contact_causes>;
 
 /// Impulses of a joint over a time, without smooth forces along its coordinates [N s] or [N m s].
 struct JointImpulses {
-  /// by row: of the joint's parts, then along its coordinates
+  /// By row: of the joint's parts, then along its coordinates.
   std::array<double, JointRows::most> rows{};
-  /// the share of the motors in those along the coordinates
+  /// The share of the motors in those along the coordinates.
   std::array<double, most_coordinates> motors{};
   /// Change of each angle meanwhile, with full turns, counted step by step [rad].
   std::array<double, most_coordinates> turned{};

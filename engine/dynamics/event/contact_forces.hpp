@@ -57,7 +57,7 @@ Row turning_row(const TurningPoint& point, const Vec3& axis);
 /// The problem that solve_contact_forces() poses and its solution, for whoever wants to inspect it.
 struct ContactForceProblem {
   struct Point {
-    /// its unknowns: the normal force, and with friction two tangential ones
+    /// Its unknowns: the normal force, and with friction two tangential ones.
     int first = 0, count = 1;
     std::array<Vec3, 3> axes{};  ///< along which these act on B, world axes
     double friction = 0;         ///< [-]

@@ -23,7 +23,7 @@ struct DrivePart {
 
   // The mode, which stays through a step.
   bool holds = false;  ///< the limit is reached; the motor or friction keeps its rate
-  /// of a motor or friction that does not hold: sign of its rate less the held one
+  /// Of a motor or friction that does not hold: sign of its rate less the held one.
   double side = 0;
   /// Accepted depth: how far the limit was passed at the beginning [m] or [rad].
   double offset = 0;

@@ -28,7 +28,7 @@ class EventGroup {
  private:
   struct EnergyLost {
     double energy = 0;  ///< [J]
-    /// uncertainty of that, where the power of the forces jumped during the step [J]
+    /// Uncertainty of that, where the power of the forces jumped during the step [J]
     double doubt = 0;
   };
   /// The state where the present step began.
@@ -88,7 +88,7 @@ class EventGroup {
   FirstEvent first_event_;
   std::vector<double> y_, scratch_;
   StepStart start_;
-  /// by joint, at the last count_turns()
+  /// By joint, at the last count_turns().
   std::vector<std::array<double, most_coordinates>> angles_;
 };
 

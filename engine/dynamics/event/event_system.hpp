@@ -133,7 +133,7 @@ class EventSystem final : public ode::System {
     BodyVelocity velocity;
     double since = 0;     ///< [s]
     BodyVelocity change;  ///< rate of change of the velocity
-    /// of bodies on courses: velocity to restore, velocity at the start of the tick
+    /// Of bodies on courses: velocity to restore, velocity at the start of the tick.
     std::optional<BodyVelocity> given, at_start;
   };
   void place_kinematic(double t);

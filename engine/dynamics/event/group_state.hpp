@@ -8,7 +8,7 @@ namespace tumble {
 struct GroupState {
   std::span<RigidBody> bodies;
   BodyGroup& group;
-  /// by slot, the body's place in the group; no_block for fixed bodies
+  /// By slot, the body's place in the group; no_block for fixed bodies.
   std::span<const uint32_t> block_of;
   const EventContext& context;
   EventSystem system;

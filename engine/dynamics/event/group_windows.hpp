@@ -99,7 +99,7 @@ class GroupWindows {
   std::vector<uint32_t> coupling_place_;  ///< by coupling: place of one of its bodies
   std::vector<std::pair<uint32_t, uint32_t>> ties_;  ///< places
   BodyClusters together_;
-  /// at the start and end of the window, by place; `end_` only for clusters that are done
+  /// At the start and end of the window, by place; `end_` only for clusters that are done.
   std::vector<BodyMotion> start_, end_;
   std::vector<Cluster> clusters_;  ///< in the order of their first bodies
 };

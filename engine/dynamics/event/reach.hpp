@@ -11,7 +11,7 @@ namespace tumble {
 /// could meet one that it was not paired with.
 struct BodyReach {
   Pose start;
-  /// bound on the displacement of any point; 0 for bodies that do not move [m]
+  /// Bound on the displacement of any point; 0 for bodies that do not move [m]
   double distance = 0;
   /// Half the edges of a box about the centre of mass, body axes, that contains the body [m]: by it
   /// the spin of a needle about its own axis moves no point far. Infinite: rotation is bounded by

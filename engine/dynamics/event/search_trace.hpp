@@ -26,7 +26,7 @@ struct WatchedValue {
 struct SearchLook {
   enum class Stage : uint8_t {
     start,  ///< at the start of the step
-    /// shortly after it: a gap that has just opened must first grow before it can close again
+    /// Shortly after it: a gap that has just opened must first grow before it can close again.
     parted,
     look,  ///< at one of a few equal times through the step
     root,  ///< in the search for the root between two times that bracket an event
@@ -35,7 +35,7 @@ struct SearchLook {
   uint32_t value = 0;  ///< index in EventSearch::watched
   double f = 0;        ///< the value
   Stage stage = Stage::look;
-  /// the interval in which the event is then known to lie, since the start of the step [s]
+  /// The interval in which the event is then known to lie, since the start of the step [s]
   double low = 0, high = 0;
   Pose pose;  ///< of the traced body at that time
 };
@@ -43,7 +43,7 @@ struct SearchLook {
 /// The search for the first event in one step of an integrator.
 struct EventSearch {
   static constexpr int none = -1;
-  /// the step begins at `begin` after the start of the tick and lasts `step` [s]
+  /// The step begins at `begin` after the start of the tick and lasts `step` [s]
   double begin = 0, step = 0;
   double found = 0;  ///< since the start of the step; `step` if there is no event [s]
   int first = none;  ///< index in `watched` of the first event
@@ -56,7 +56,7 @@ struct EventSearch {
 struct EventSearchTrace {
   uint32_t body = ~uint32_t{0};  ///< slot
   std::vector<EventSearch> searches;
-  /// greatest number of searches that are kept, and how many more there were
+  /// Greatest number of searches that are kept, and how many more there were.
   size_t most = 500, left_out = 0;
 
   /// Begins a new search; null when there are too many.

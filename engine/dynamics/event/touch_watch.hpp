@@ -7,7 +7,7 @@ namespace tumble {
 /// Motion of a body as a set of points: rotation of a body of revolution about its own axis moves
 /// no points of the set.
 struct SwingMotion {
-  /// velocity of the centre of mass, and angular velocity without such rotation, world axes [m/s,
+  /// Velocity of the centre of mass, and angular velocity without such rotation, world axes [m/s,
   /// rad/s]
   Vec3 v = Vec3::Zero(), swing = Vec3::Zero();
   double lever = 0;  ///< greatest distance of points from the centre of mass, if they rotate [m]

@@ -9,7 +9,7 @@ namespace tumble {
 struct WatchedPair {
   EventPair pair;
   std::vector<EventContact> contacts;
-  /// places in the group; no_block for a body that does not move
+  /// Places in the group; no_block for a body that does not move.
   uint32_t a = no_block, b = no_block;
   /// Lower bound of the gap when the bodies had moved by `max_displacement` in all [m].
   double gap = -std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@ namespace tumble {
 /// A body's pose and velocity at one moment.
 struct BodyMotion {
   Pose pose;
-  /// velocity of the centre of mass [m/s]; angular velocity [rad/s]; world axes
+  /// Velocity of the centre of mass [m/s]; angular velocity [rad/s]; world axes.
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
 };
 
@@ -15,7 +15,7 @@ struct ElementPlace {
   double gap = 0;               ///< along the normal; negative is penetration [m]
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B
   Vec3 x_world = Vec3::Zero();  ///< midway between the surfaces [m]
-  /// false where the elements have no unique normal (parallel lines, coinciding points)
+  /// False where the elements have no unique normal (parallel lines, coinciding points).
   bool regular = true;
 };
 

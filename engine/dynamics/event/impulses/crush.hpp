@@ -7,7 +7,7 @@ namespace tumble {
 
 /// Proof that bodies which cannot yield press others together.
 struct Crush {
-  /// by point: the impulse of the proof, relative to the greatest one [-]
+  /// By point: the impulse of the proof, relative to the greatest one [-]
   std::vector<double> shares;
   /// Work of the approach velocities against these impulses, per unit of the greatest one [m/s];
   /// for two plates that close in on a body with equal impulses, their closing speed.

@@ -25,7 +25,7 @@ struct PointImpactResult {
   PointImpactStatus status = PointImpactStatus::solved;
   Vec3 impulse = Vec3::Zero();   ///< on B [N s]
   Vec3 velocity = Vec3::Zero();  ///< relative, after [m/s]
-  /// work of the normal impulse until the greatest compression, <= 0 [J]
+  /// Work of the normal impulse until the greatest compression, <= 0 [J]
   double compression_work = 0;
   double friction_work = 0;  ///< work of the tangential impulse, <= 0 [J]
   bool stuck = false;        ///< slip ended and did not begin again

@@ -41,7 +41,7 @@ struct ImpactReport {
   /// Work of all impulses over the relative motion [J]: energy lost in collisions, at most rounding
   /// error above zero.
   double work = 0;
-  /// share of the restitution that was applied; below 1 where all of it would have created energy
+  /// Share of the restitution that was applied; below 1 where all of it would have created energy.
   double restitution_scale = 1;
   double residual = 0;      ///< greatest residual of the problems solved [-]
   std::string_view solver;  ///< solver of the last problem; empty when there was none
