@@ -3,29 +3,31 @@
 
 namespace tumble {
 
-// What follows a course over time (TimeCourse): targets of motors, and kinematic bodies. All of it
-// is a function of the definitions and of the time, worked out anew for each tick.
+// Targets of motors, and kinematic bodies, that follow a prescribed course over time (TimeCourse).
+// They are functions of the definitions and of the time only, and are evaluated anew for each tick.
 
-/// For the tick from now: targets of motors, and the velocities that bring kinematic bodies to
-/// where they are to be at its end. Wakes what motors begin to move. Error: a course has no finite
-/// value; nothing is changed.
+/// For the coming tick: sets the targets of motors, and the velocities that bring kinematic bodies
+/// to their prescribed poses at its end. Wakes bodies that a motor begins to move. Error: a course
+/// has no finite value; then nothing is changed.
 Status follow_courses(WorldState& state);
 
-/// Only the targets, for questions about the moment; those without a finite value stay.
+/// Sets only the targets of motors, for queries between ticks; a target without a finite value is
+/// left as it was.
 void set_motor_targets(WorldState& state);
 
-/// How bodies on courses go through the tick from now, whose mean velocities they have: velocities
-/// change evenly, by the slopes that those of the ticks before and after let one see, and jump only
-/// where courses do. Those at rest are left out.
+/// How bodies on courses move through the coming tick, given that their velocities are its means:
+/// each velocity changes linearly in time, with a limited slope estimated from the mean velocities
+/// of this tick and its neighbours, so that it jumps only where the course does. Bodies at rest are
+/// left out.
 std::vector<CourseMotion> course_motions(const WorldState& state);
-/// Their velocities as they are, and how these change at the moment.
+/// The velocities of all bodies on courses as they are now, and their present accelerations.
 std::vector<CourseMotion> course_changes(const WorldState& state);
 
-/// Puts a body that has a course to where it is to be now, and remembers it.
+/// Places a body that has a course at its prescribed pose of now, and adds it to `on_course`.
 void begin_course(WorldState& state, uint32_t slot);
-/// From here on the body goes by its velocity.
+/// Removes the course of a body, which then moves by its velocity.
 void end_course(WorldState& state, uint32_t slot);
-/// Finds again who has a course.
+/// Rebuilds the list of bodies on courses from the definitions.
 void find_courses(WorldState& state);
 bool has_courses(const WorldState& state);
 
