@@ -11,31 +11,33 @@
 
 namespace tumble {
 
-/// A tree over bounds that stand still, which finds those that a ray, a moving box, a box or a
-/// point may meet. Visits all that are met and few others: callers decide exactly. Divided as
-/// PackedTree is, with boxes in double, so that what is far away costs no accuracy. Infinite bounds
-/// and those beyond 10^30 m are kept in a list beside it and visited first; empty ones are left
-/// out. Queries are const and may run in many threads; the order of visits is the same every time.
+/// A bounding volume tree over bounds at rest, which finds those that a ray, a moving box, a box or
+/// a point may meet. It visits all that are met and few others; callers decide exactly. It is
+/// divided as PackedTree is, but stores boxes in double precision, so that large distances cost no
+/// accuracy. Infinite bounds and those beyond 10^30 m are kept in a separate list and visited
+/// first; empty ones are left out. Queries are const and may run in many threads; the order of
+/// visits is the same every time.
 class BoundsTree {
  public:
   BoundsTree() = default;
   explicit BoundsTree(std::span<const Aabb> bounds, Crew* crew = nullptr);
 
-  /// Of all members; infinite where one of them is.
+  /// Bounds of all members; infinite if one of them is infinite.
   Aabb bounds() const;
 
-  /// The bounds that a box of half extents `half` (>= 0) meets on its way along the ray for t in
-  /// [0, t_max]; with half zero, those that the ray meets. The nearer of two branches first.
-  /// `visit(i)` gives the new t_max, which may only shrink; below 0 it ends the search.
+  /// Visits the bounds that a box of half extents `half` (>= 0) meets while its centre moves along
+  /// the ray for t in [0, t_max]; with half zero, those that the ray meets. The nearer of two
+  /// branches comes first. `visit(i)` returns the new t_max, which may only decrease; a value below
+  /// 0 ends the search.
   template <class Visit>
   void along(const Ray& ray, const Vec3& half, double t_max, const Visit& visit) const;
 
-  /// The bounds that have a point in common with the box; visit(i) says whether to go on.
+  /// Visits the bounds that have a point in common with the box; visit(i) returns whether to go on.
   template <class Visit>
   void overlapping(const Aabb& box, const Visit& visit) const;
 
-  /// The bounds no further from x than `reach` (>= 0) [m], the nearer of two branches first;
-  /// visit(i) gives the new reach, which may only shrink.
+  /// Visits the bounds no farther from x than `reach` (>= 0) [m], the nearer of two branches first;
+  /// visit(i) returns the new reach, which may only decrease.
   template <class Visit>
   void around(const Vec3& x, double reach, const Visit& visit) const;
 
@@ -46,10 +48,10 @@ class BoundsTree {
     uint32_t right = 0;            ///< the left child follows its parent; 0 in a leaf
   };
   struct Branch {
-    double at;  ///< where it is met
+    double at;  ///< entry parameter or distance of its box
     uint32_t node;
   };
-  /// Branches still to visit; seldom more than fit beside the call.
+  /// Stack of branches to visit, in a local buffer that nearly always suffices.
   class Waiting {
    public:
     Waiting() { branches_.reserve(120); }
@@ -69,12 +71,12 @@ class BoundsTree {
 
   static constexpr double missed = std::numeric_limits<double>::infinity();
 
-  /// How a moving box meets others.
+  /// A box that moves along a ray, for tests against bounds at rest (slab method).
   struct Sweep {
     Vec3 origin, inverse, half;
-    /// Where it enters, or `missed`. Across a direction in which nothing moves (of inverse
-    /// +infinity) the sides give infinities, and NaN in the plane itself, which the comparisons
-    /// pass over.
+    /// The ray parameter at which it enters the bounds, or `missed`. Along an axis without motion
+    /// `inverse` is +infinity, and the slab's sides give infinities, or NaN if the origin is
+    /// exactly on a side; comparisons with NaN are false, so that it is ignored.
     double entry(const Aabb& b, double t_max) const {
       double in = 0, out = t_max;
       for (int k = 0; k < 3; ++k) {
@@ -87,15 +89,15 @@ class BoundsTree {
     }
   };
 
-  /// Walks down with `meet(box, limit)` (where it is met, or `missed`) and visit(i) as the new
-  /// limit.
+  /// Descends the tree with `meet(box, limit)`, which returns where the box is met, or `missed`,
+  /// and calls visit(i), which returns the new limit.
   template <class Meet, class Visit>
   void walk(double limit, const Meet& meet, const Visit& visit) const;
 
   std::vector<Node> nodes_;
   std::vector<Aabb> boxes_;       ///< of the members, in the order of the leaves
   std::vector<uint32_t> ids_;     ///< of the members
-  std::vector<uint32_t> beside_;  ///< of infinite bounds
+  std::vector<uint32_t> beside_;  ///< indices of infinite bounds
   double reach_ = 0;              ///< largest coordinate of the members [m]
 };
 
@@ -138,9 +140,9 @@ void BoundsTree::walk(double limit, const Meet& meet, const Visit& visit) const 
 
 template <class Visit>
 void BoundsTree::along(const Ray& ray, const Vec3& half, double t_max, const Visit& visit) const {
-  // What rounding may do, of the origin, the direction and the boxes.
+  // Upper bound of the rounding errors of the origin, the direction and the boxes.
   const double reach = reach_ + ray.origin.cwiseAbs().maxCoeff() + half.maxCoeff();
-  // Added 0 turns -0 into 0.
+  // Adding 0 turns -0 into 0.
   const Sweep sweep{ray.origin, (ray.direction.array() + 0.0).inverse(),
                     half.array() + 1e-14 * reach};
   walk(

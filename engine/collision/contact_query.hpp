@@ -7,24 +7,24 @@
 
 namespace tumble {
 
-/// What contacts are asked for, and by which means.
+/// The parameters of a search for contacts.
 struct ContactQuery {
-  double margin = 0;  ///< gaps up to this count (>= 0) [m]
-  /// What finds the triangles of two meshes that are near each other; null for the boxes that every
-  /// mesh has anyway. It changes no contact.
+  double margin = 0;  ///< gaps up to this are contacts (>= 0) [m]
+  /// The hierarchy that finds near triangles of two meshes; null for the boxes that every mesh has.
+  /// It changes no contact.
   const HierarchyKind* hierarchy = nullptr;
-  /// Features (ManifoldPoint::feature) of the points that carried the pair until now. Where more
-  /// points are candidates than a manifold holds, these stay unless others are clearly better.
+  /// Features (ManifoldPoint::feature) of the points that carried load until now. Where there are
+  /// more candidate points than a manifold holds, these are kept unless others are clearly better.
   std::span<const uint64_t> kept = {};
-  /// Manifold::closest of the last time, where the search for the closest features of two polyhedra
-  /// starts; null if there was none.
+  /// Manifold::closest of the last query, from which the search for the closest features of two
+  /// polyhedra starts; null if there is none.
   const ClosestFeatures* start = nullptr;
-  /// Where no contact is found, and this is set: a distance that the shapes are sure to keep, at
-  /// least the margin; more where the search knew more. Until they have moved that far against each
-  /// other, there is no use in looking again. Means nothing where contacts are found [m].
+  /// If set, and if no contact is found, receives a lower bound on the distance of the shapes, at
+  /// least the margin, larger if the search found more [m]. Until they have moved that far relative
+  /// to each other, a new search would find nothing. Undefined if contacts are found.
   double* apart = nullptr;
-  /// Shapes that have a field (Shape::field) meet others by their triangles all the same: where the
-  /// time of contact, which knows no fields, and the contacts must agree to rounding.
+  /// Shapes that have a field (Shape::field) use their triangles instead: for callers that need
+  /// contacts to agree to rounding with the time of contact, which ignores fields.
   bool by_triangles = false;
 
   ContactQuery(double m, const HierarchyKind* kind = nullptr,

@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// Mixes a key into another (the finaliser of SplitMix64): equal inputs give equal keys, and
-/// different ones all but surely different keys.
+/// Mixes a value into a key (the finaliser of SplitMix64): equal inputs give equal keys, and
+/// different ones nearly always different keys.
 constexpr uint64_t mix_key(uint64_t key, uint64_t value) {
   uint64_t z = key + 0x9e3779b97f4a7c15ULL * (value + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// Up to four points with what they share, of which `Head::count` says how many there are. Most of
-/// the memory that a tick moves is contacts, and many have one point only: beyond the count none is
-/// initialised or copied.
+/// Up to four points with their common data; `Head::count` is their number. Most of the memory
+/// traffic of a tick is contacts, many of which have one point only, so points beyond the count are
+/// neither initialised nor copied.
 template <class Head, class Point>
 struct FewPoints : Head {
   union {

@@ -14,12 +14,14 @@ struct ManifoldPoint {
   uint64_t feature = 0;         ///< which features touch; the same pair of features keeps its key
 };
 
-/// What the points of a manifold share.
+/// Data common to the points of a manifold.
 struct ManifoldHead {
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
-  uint64_t part = 0;            ///< tells apart the manifolds of one pair of shapes (mesh patches)
-  ClosestFeatures closest;  ///< of two polyhedra, where the narrow phase knows them; start there
-  int count = 0;            ///< points
+  /// Distinguishes the manifolds of one pair of shapes (mesh patches).
+  uint64_t part = 0;
+  /// Of two polyhedra, for the start of the next query, if the narrow phase finds them.
+  ClosestFeatures closest;
+  int count = 0;  ///< number of points
 };
 
 /// Up to four points that share a normal.

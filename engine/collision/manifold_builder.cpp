@@ -7,20 +7,21 @@
 namespace tumble {
 namespace {
 
-/// A later point must be better by this share to take the place of an earlier one.
+/// A later point replaces an earlier one only if it is better by this factor.
 constexpr double clearly = 1.02;
 
-/// Share by which a point that was kept so far counts more than others.
+/// Factor for points that were kept so far.
 constexpr double kept_bonus = 1.2;
 
-/// Points count as equally deep up to this, of the extent of the whole, and one that was kept so
-/// far up to `nearly_deep`: the first of them is taken, so that what lies flat keeps its points.
+/// Points count as equally deep up to this share of the extent of all points, and a point that was
+/// kept so far up to `nearly_deep`: the first of them is chosen, so that bodies that lie flat keep
+/// their points.
 constexpr double equally_deep = 1e-4, nearly_deep = 1e-3;
 
-/// Gap at which a point counts half, in sizes of the whole.
+/// Gap at which a point has half weight, in extents of all points.
 constexpr double near_share = 0.01;
 
-/// The candidates of one manifold and what each counts.
+/// The candidates of one manifold, and their weights.
 class Candidates {
  public:
   Candidates(std::span<const ManifoldPoint> points, std::span<const uint64_t> kept)
@@ -35,7 +36,7 @@ class Candidates {
       kept_first_ |= uint64_t{look_up(i)} << i;
   }
 
-  /// The deepest; one that was kept stays while it is nearly that.
+  /// The deepest point; one that was kept so far stays if it is nearly as deep.
   size_t deepest() const {
     const double equal = equally_deep * reach_, nearly = nearly_deep * reach_;
     const auto key = [&](size_t i) { return points_[i].gap - (is_kept(i) ? nearly : 0); };
@@ -59,7 +60,7 @@ class Candidates {
     return best;
   }
 
-  /// What a point counts for what it spans.
+  /// Weight of a point.
   double weight(size_t i) const {
     const double bonus = is_kept(i) ? kept_bonus : 1;
     return fading_ == 0 ? bonus : bonus / (1 + fading_ * std::max(points_[i].gap, 0.0));
@@ -81,7 +82,7 @@ class Candidates {
   std::span<const uint64_t> kept_;
   uint64_t kept_first_ = 0;  ///< bit i: point i is among those kept
   double reach_ = 0;
-  double fading_ = 0;  ///< of weight with gap; 0 where all count alike [1/m]
+  double fading_ = 0;  ///< decrease of weight with the gap; 0 if all have equal weight [1/m]
 };
 
 }  // namespace
@@ -98,7 +99,8 @@ void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
   size_t deepest = candidates.deepest();
   const size_t farthest =
       candidates.farthest_from(deepest, std::numeric_limits<double>::infinity());
-  // Back again, so that equally deep points in the middle of a line or face give way to its ends.
+  // Once more from the far end, so that equally deep points inside a line or face are replaced by
+  // its ends.
   deepest =
       candidates.farthest_from(farthest, points[deepest].gap + equally_deep * candidates.reach());
   const Vec3 p0 = points[deepest].x_world;

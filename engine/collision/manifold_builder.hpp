@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Collects candidate points of one manifold without allocating, and keeps the four that carry it.
+/// Collects candidate points of one manifold without allocating, and reduces them to four.
 class ManifoldBuilder {
  public:
   static constexpr int capacity = 128;
@@ -28,18 +28,18 @@ class ManifoldBuilder {
 
  private:
   static_assert(std::is_trivially_destructible_v<ManifoldPoint>);
-  union {  // most are never filled, and to clear them took longer than to find the contacts
+  union {  // uninitialised: clearing it would take longer than finding the contacts
     ManifoldPoint points_[capacity];
   };
   int count_ = 0;
 };
 
 /// Fills `out` with at most four of the points: the deepest, the one farthest from it, and the two
-/// that span the largest areas on either side of that line. Points count less the farther they are
-/// from touching: those that are farthest out need not be those that are about to press, and a body
-/// whose lowest points are left out rocks on the others. A point takes the place of one whose
-/// feature is among `kept` only when it is clearly better, so that the choice stays from tick to
-/// tick and with it the forces that the points remember.
+/// that span the largest areas on either side of the line through these. The weight of a point
+/// decreases with its gap: outermost points that are far from touching will not carry load next,
+/// and without the lowest points a body rocks on the others. A point replaces one whose feature is
+/// among `kept` only if it is clearly better, so that the choice persists from tick to tick, and
+/// with it the impulses stored with the points.
 void reduce_points(std::span<const ManifoldPoint> points, const Vec3& normal,
                    std::span<const uint64_t> kept, Manifold& out);
 

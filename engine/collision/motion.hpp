@@ -3,10 +3,10 @@
 
 namespace tumble {
 
-/// How a frame moves during [t0, t1]: its carrier (a body's centre of mass) at constant velocity
-/// and constant angular velocity, the frame itself rigidly attached to it.
+/// The motion of a frame during [t0, t1]: its carrier (a body's centre of mass) has constant
+/// velocity and constant angular velocity, and the frame is rigidly attached to it.
 ///
-/// What is said never to pass through anything is this motion.
+/// Guarantees that nothing is passed through refer to this motion.
 struct Motion {
   Pose start;                    ///< of the carrier at t0
   Vec3 velocity = Vec3::Zero();  ///< of the carrier [m/s]
@@ -14,9 +14,9 @@ struct Motion {
   double t0 = 0, t1 = 0;         ///< [s]
   Pose offset;                   ///< the frame relative to the carrier
 
-  /// The carrier at time t.
+  /// Pose of the carrier at time t.
   Pose carrier(double t) const;
-  /// The frame at time t.
+  /// Pose of the frame at time t.
   Pose pose(double t) const { return carrier(t) * offset; }
 
   /// Greatest distance from the carrier's centre of any point within `radius` of the frame's
@@ -30,18 +30,18 @@ struct Motion {
 
   /// Velocity of the frame's origin at time t [m/s].
   Vec3 origin_velocity(double t) const;
-  /// How fast the frame's origin goes round the carrier [m/s]; constant over the motion. Its
-  /// acceleration is |omega| times that.
+  /// Speed of the frame's origin relative to the carrier's centre [m/s]; constant over the motion.
+  /// Its acceleration is |omega| times that.
   double orbit_speed() const { return omega.cross(start.direction(offset.x)).norm(); }
 
   /// Standing still.
   static Motion at_rest(const Pose& pose, double t0, double t1);
-  /// From `from` at t0 to `to` at t1: straight, and turning the shortest way.
+  /// From `from` at t0 to `to` at t1, with constant velocity and the shortest rotation.
   static Motion between(const Pose& from, const Pose& to, double t0, double t1);
 };
 
-/// How far an arc of `angle` >= 0 [rad] about a centre at `radius` may be from the straight line
-/// between its ends [m]: what turns and moves on at constant velocity leaves its chord by no more.
+/// Bound on the distance between an arc of `angle` >= 0 [rad] and `radius`, and its chord [m]; a
+/// point that rotates and translates at constant velocities deviates from its chord by no more.
 double arc_height(double angle, double radius);
 
 }  // namespace tumble

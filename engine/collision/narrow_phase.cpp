@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-/// The routine for an ordered pair of types; `swap` when it wants them the other way round.
+/// The routine for an ordered pair of types; `swap` if it takes them in the other order.
 struct Route {
   CollidePair collide = nullptr;
   bool swap = false;
@@ -30,7 +30,7 @@ void set(Routes& routes, ShapeType a, ShapeType b, CollidePair collide) {
   if (a != b) routes[size_t(b)][size_t(a)] = {collide, true};
 }
 
-/// By families.
+/// Sets the routines that follow from the families of two shapes.
 void set_usual(Routes& routes, const ShapeEntry& a, const ShapeEntry& b) {
   using enum ShapeFamily;
   if (a.family > b.family) return set_usual(routes, b, a);
@@ -50,12 +50,12 @@ Routes make_routes() {
   const std::vector<ShapeEntry>& all = all_shapes();
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t j = i; j < all.size(); ++j) set_usual(r, all[i], all[j]);
-  // Half-spaces meet a field's mesh, which is exact.
+  // A half-space is tested against a field's mesh, which is exact.
   for (const ShapeEntry& e : all)
     if (e.family == ShapeFamily::convex) set(r, e.type, distance_field, collide_convex_field);
   set(r, triangle_mesh, distance_field, collide_mesh_field);
   set(r, distance_field, distance_field, collide_field_field);
-  // Of these there are closed forms.
+  // Pairs with closed forms.
   set(r, sphere, sphere, collide_sphere_sphere);
   set(r, sphere, capsule, collide_sphere_capsule);
   set(r, capsule, capsule, collide_capsule_capsule);

@@ -17,8 +17,8 @@ namespace tumble {
 using NarrowPhase = void (*)(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                              const ContactQuery& query, std::vector<Manifold>& out);
 
-/// One algorithm for closest points of convex shapes, by name; meshes and special pairs are the
-/// same under all.
+/// An algorithm for closest points of convex shapes, by name; meshes and special pairs are the same
+/// for all.
 struct NarrowPhaseEntry {
   std::string_view name;
   NarrowPhase collide;

@@ -25,13 +25,13 @@ bool cores_touch(const PlacedCore& A, const PlacedCore& B) {
          (g.status != GjkStatus::beyond && g.distance <= reach);
 }
 
-/// A closed mesh, as far as a point can be in it.
+/// Whether a point is inside a closed mesh.
 bool mesh_holds(const MeshSurface& s, const Vec3& p_mesh) {
   return s.closed && point_in_object(p_mesh, *s.tree).side != PointSide::outside;
 }
 
-/// Whether a solid holds all of any one connected part of the mesh; where its surface meets the
-/// mesh's nowhere one corner of each part decides. `inside` takes points of the mesh's frame.
+/// Whether a solid contains any connected part of the mesh. If their surfaces do not cross, one
+/// corner of each part decides. `inside` takes points in the mesh's frame.
 template <class Inside>
 bool holds_a_part(const MeshSurface& s, const Inside& inside) {
   size_t count = 0;

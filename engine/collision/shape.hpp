@@ -20,7 +20,7 @@
 
 namespace tumble {
 
-/// Kinds of shapes, by number as snapshots hold them: a new one comes last.
+/// Kinds of shapes, with the numbers that snapshots store: a new one comes last.
 enum class ShapeType : uint8_t {
   sphere,
   capsule,
@@ -35,13 +35,13 @@ enum class ShapeType : uint8_t {
   distance_field,
 };
 inline constexpr size_t shape_type_count = 11;
-/// Of these, how many are made of a mesh or a cloud of points: the last ones of all_shapes().
+/// Number of kinds that are made of a mesh or a cloud of points: the last ones of all_shapes().
 inline constexpr size_t mesh_shape_count = 3;
 
-/// Which algorithms answer for a shape.
+/// Which algorithms apply to a shape.
 enum class ShapeFamily : uint8_t { half_space, convex, mesh };
 
-/// What turns of its frame leave the set of a shape's points as it is.
+/// Rotations of its frame that leave the shape unchanged.
 enum class ShapeSymmetry : uint8_t {
   none,
   axis,   ///< about y
@@ -59,11 +59,12 @@ struct ShapeDef {
   double top_radius = 0.25;  ///< tapered_capsule: of its upper end [m]
   Vec3 half_extents{0.5, 0.5, 0.5};  ///< box; the semi-axes of an ellipsoid [m]
   double cell = 0;  ///< distance_field: side of its cells; 0: a 64th of the mesh's longest side [m]
-  /// convex_hull: the points are `mesh->vertices`; triangle_mesh: the surface, counter-clockwise
-  /// seen from outside, of a distance_field closed. A half_space is y <= 0 of its own frame.
+  /// convex_hull: the points are `mesh->vertices`. triangle_mesh and distance_field: the surface,
+  /// counter-clockwise seen from outside; that of a distance_field is closed. A half_space is y <=
+  /// 0 of its frame.
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
-  /// distance_field: the field of `mesh` with this `cell`, where it has been made already, as from
-  /// a cache; null: it is made with the shape. Not part of what snapshots hold.
+  /// distance_field: the field of `mesh` with this `cell`, if it exists already, for instance in a
+  /// cache; null: it is made with the shape. Not stored in snapshots.
   std::shared_ptr<const DistanceField> field = nullptr;
 };
 
@@ -77,16 +78,16 @@ class Shape {
   const ShapeDef& def() const { return def_; }
   ShapeType type() const { return def_.type; }
 
-  /// Bounds in world axes for the shape at `pose`; infinite where the shape is.
+  /// Bounds in world axes for the shape at `pose`; infinite for unbounded shapes.
   virtual Aabb bounds(const Pose& pose) const = 0;
   /// Largest distance of any point of the shape from its frame's origin [m]; infinite for
   /// half-spaces.
   virtual double bounding_radius() const = 0;
-  /// Radius of the largest sphere that is sure to stay inside near the surface [m]: how far the
-  /// shape may move in one tick without any risk of passing through a thin wall.
+  /// Radius of the largest ball that fits inside everywhere near the surface [m]: the shape may
+  /// move this far in a tick without passing through a thin wall.
   virtual double inner_radius() const = 0;
-  /// Volume, centre and inertia about the centre for density 1 kg/m3. Half-spaces and open meshes
-  /// have none and say why.
+  /// Volume, centre and inertia about the centre for density 1 kg/m3. For half-spaces and open
+  /// meshes an error.
   virtual Result<MassProperties> mass_properties() const = 0;
   /// First hit of the ray origin + t direction, 0 <= t <= t_max, in the shape's frame. A ray that
   /// starts inside a solid hits at t = 0, except for meshes.
@@ -96,7 +97,8 @@ class Shape {
   virtual const ConvexShape* convex() const { return nullptr; }
   /// This shape as a triangulated surface (meshes, hulls, boxes), or null.
   virtual const Polyhedral* polyhedral() const { return nullptr; }
-  /// The signed distance that this shape touches others by, in place of its triangles, or null.
+  /// The signed distance field by which this shape touches others, instead of its triangles, or
+  /// null.
   virtual const DistanceField* field() const { return nullptr; }
   ShapeFamily family() const { return family_; }
   bool is_half_space() const { return family_ == ShapeFamily::half_space; }
@@ -106,36 +108,37 @@ class Shape {
 
   // -- contacts; all in the shape's frame
 
-  /// The piece of the surface at a point of it where `outward` (unit) points out of the shape. A
-  /// face counts as a plane where its normal is within 1e-6 rad of `outward`; else an edge, a
-  /// corner or the furthest point of a rim within 1e-6 of the shape's size is taken; else the face
-  /// that the point is on, or the material point itself.
+  /// The element of the surface at a point of it where `outward` (unit) points out of the shape. A
+  /// face is a plane if its normal is within 1e-6 rad of `outward`; otherwise an edge, a corner or
+  /// the extreme point of a rim within 1e-6 of the shape's size is chosen; otherwise the face that
+  /// the point is on, or the material point itself.
   virtual SurfaceElement element_at(const Vec3& point, const Vec3& outward) const = 0;
-  /// The corner or edge within 1e-6 of the shape's size of the point, what is round about a point,
-  /// or the material point; never a plane. For what lies on a face.
+  /// The element for a point that lies on another shape's face: the corner or edge within 1e-6 of
+  /// the shape's size, a ball or other rounding about a point, or the material point; never a
+  /// plane.
   virtual SurfaceElement border_at(const Vec3& point, const Vec3& outward) const = 0;
-  /// Whether a point element is a corner or a ball of the shape itself, not a material point
-  /// somewhere on it.
+  /// Whether a point element is a corner or a ball of the shape itself, and not just some material
+  /// point of its surface.
   virtual bool has_point(const SurfaceElement&) const { return false; }
-  /// Radius of a ball as much curved as the surface where its normal is `outward` (unit) [m]; 0 at
-  /// corners, edges and faces.
+  /// Radius of curvature of the surface where its normal is `outward` (unit), as that of a ball
+  /// [m]; 0 at corners, edges and faces.
   virtual double rounding_along(const Vec3& /*outward*/) const { return 0; }
-  /// The feature on which a point of the surface lies, up to 1e-9 of the size, the one of lowest
-  /// dimension; `triangle` is that of a mesh. Smooth shapes have face 0 alone.
+  /// The feature on which a point of the surface lies, within 1e-9 of the size, the one of lowest
+  /// dimension; `triangle` is for meshes. Smooth shapes have only face 0.
   virtual PolyhedronFeature feature_at(const Vec3& /*point*/, uint32_t /*triangle*/) const {
     return {FeatureKind::face, 0};
   }
-  /// How thick the thinnest part of the shape is [m]; infinite where there is no other side.
+  /// Thickness of the thinnest part of the shape [m]; infinite if it has no other side.
   virtual double least_thickness() const { return 2 * inner_radius(); }
 
-  // -- for people
+  // -- for display
 
   /// Kind and sizes in a few words: "sphere, radius 0.5 m".
   virtual std::string words() const = 0;
   /// The lines that show the shape, own frame.
   virtual void outline(DebugDraw& out, const Vec4f& colour) const = 0;
   virtual ShapeDrawing drawing() const { return {}; }
-  /// What is drawn where drawing() says `surface`.
+  /// The surface that is drawn if drawing() says `surface`.
   virtual DrawnSurface drawn_surface() const { return {}; }
 
  protected:
@@ -148,12 +151,12 @@ class Shape {
   ShapeSymmetry symmetry_;
 };
 
-/// One number, or three, of a shape as scene files name it.
+/// A number, or three, of a shape, with its name in scene files.
 struct ShapeParameter {
   Parameter parameter;
   double ShapeDef::*number = nullptr;
   Vec3 ShapeDef::*vector = nullptr;
-  double factor = 1;  ///< the definition holds the file's value times this
+  double factor = 1;  ///< member of the definition = value in the file times this
 };
 
 /// One entry of the list of shape types.
@@ -163,8 +166,7 @@ struct ShapeEntry {
   ShapeFamily family;
   bool polyhedral;  ///< Shape::polyhedral() is not null
   Result<std::shared_ptr<const Shape>> (*make)(const ShapeDef&);
-  /// Its own numbers, those that scene files, snapshots and panels know. Meshes and clouds of
-  /// points are not among them.
+  /// Its parameters in scene files, snapshots and panels, except meshes and clouds of points.
   std::span<const ShapeParameter> parameters;
 };
 
@@ -174,7 +176,7 @@ const std::vector<ShapeEntry>& all_shapes();
 const ShapeEntry& shape_entry(ShapeType type);
 /// Whether a shape is made of `ShapeDef::mesh`.
 bool made_of_mesh(ShapeType type);
-/// A ball; for particles, which have radii and no shapes.
+/// The definition of a ball, for particles, which have radii and no shapes.
 ShapeDef ball_def(double radius);
 
 /// Builds the shape (hull, trees, topology), or says which value is wrong.

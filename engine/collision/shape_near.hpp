@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// closest_point() with open meshes seen from either side: their distance is never negative, and
-/// the normal points towards x, in the surface itself out of its front.
+/// closest_point(), but for open meshes with two sides: their distance is never negative, and the
+/// normal points towards x, or for a point on the surface to its front.
 inline std::optional<ClosestPoint> near_shape(const Shape& shape, const Pose& pose, const Vec3& x,
                                               double max_distance) {
   if (!shape.is_mesh() || shape.polyhedral()->surface().closed)
@@ -33,8 +33,9 @@ inline std::optional<ClosestPoint> near_shape(const Shape& shape, const Pose& po
   return c;
 }
 
-/// near_shape() for what is to touch: shapes with a field (Shape::field) answer by it, to its
-/// error, and have no triangle. Where the field has no fine answer the mesh has the exact one.
+/// near_shape() for contacts: a shape with a field (Shape::field) uses it, with its error, and
+/// gives no triangle. Outside the field's narrow band, and where its gradient has no direction, the
+/// exact distance of the mesh is used.
 inline std::optional<ClosestPoint> near_to_touch(const Shape& shape, const Pose& pose,
                                                  const Vec3& x, double max_distance) {
   const DistanceField* field = shape.field();
@@ -42,7 +43,7 @@ inline std::optional<ClosestPoint> near_to_touch(const Shape& shape, const Pose&
   const DistanceSample at = field->sample(pose.inverse_point(x));
   if (at.distance - at.error > max_distance) return std::nullopt;
   const double length = at.gradient.norm();
-  constexpr double no_direction = 0.5;  // on a ridge, as far from one side as from the other
+  constexpr double no_direction = 0.5;  // equally far from two sides
   if (at.level != FieldLevel::band || length < no_direction)
     return near_shape(shape, pose, x, max_distance);
   if (at.distance > max_distance) return std::nullopt;

@@ -20,7 +20,7 @@ bool sound_motion(const Motion& m) {
          unit(m.start.q) && unit(m.offset.q);
 }
 
-/// Greatest distance of anything that counts from the world's origin or from what it turns about.
+/// Greatest distance of any relevant point from the world's origin or from its centre of rotation.
 double farthest(const Shape& s, const Motion& m) {
   const double reach = s.is_half_space() ? 0 : s.bounding_radius();
   const double duration = m.t1 - m.t0;

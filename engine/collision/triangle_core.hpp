@@ -24,7 +24,7 @@ class TriangleCore final : public ConvexCore {
     const double h0 = d.dot(corner_[0]), h1 = d.dot(corner_[1]), h2 = d.dot(corner_[2]);
     return h0 >= h1 ? (h0 >= h2 ? corner_[0] : corner_[2]) : (h1 >= h2 ? corner_[1] : corner_[2]);
   }
-  /// The triangle, counter-clockwise seen against `direction`.
+  /// The triangle, counter-clockwise seen from the side that `direction` points to.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override {
     const Vec3 n = (corner_[1] - corner_[0]).cross(corner_[2] - corner_[0]);
     const bool front = n.dot(direction) >= 0;

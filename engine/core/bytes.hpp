@@ -44,8 +44,8 @@ class ByteWriter {
   size_t section_start_ = 0;
 };
 
-/// Reads what a ByteWriter wrote. Reading past the end or an absurd count sets fail() and gives
-/// zeros from then on; it never reads outside the span.
+/// Reads what a ByteWriter wrote. Reading past the end, or a count larger than the rest, calls
+/// fail(); from then on all values are zero. It never reads outside the span.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -78,7 +78,7 @@ class ByteReader {
 
   /// Enters the next section if it has this name; gives its version, or 0 (and fails) if not.
   uint32_t begin_section(std::string_view name);
-  /// Leaves the section, skipping what a newer version added at its end.
+  /// Leaves the section, and skips what a newer version appended to it.
   void end_section();
 
   bool ok() const { return ok_; }

@@ -3,14 +3,14 @@
 
 namespace tumble {
 
-/// Work is divided into at most this many chunks, and how depends on nothing but its size: not on
-/// the number of threads.
+/// Work is divided into at most this many chunks, in a way that depends on its size only, and not
+/// on the number of threads.
 constexpr size_t chunk_count = 32;
-/// Less is not worth asking another thread.
+/// Shorter loops are not worth running on several threads.
 constexpr size_t least_parallel = 256;
 
-/// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and it
-/// is worth it: from `least` on.
+/// Calls f(chunk, first, last) for the chunks of [0, n), on these threads if there are any and n is
+/// at least `least`.
 template <class F>
 void for_chunks(Crew* crew, size_t n, const F& f, size_t least = least_parallel) {
   if (!crew || n < least) {

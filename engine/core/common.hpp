@@ -1,7 +1,8 @@
 #pragma once
-/// What nearly every source of the house includes, compiled once (tumble_compile in the top
-/// CMakeLists.txt). Not to be included by hand: a source names what it uses, and must compile
-/// without this. Only headers of others: what changes with our work would compile everything anew.
+/// Headers that nearly every source includes, precompiled (tumble_compile in the top
+/// CMakeLists.txt). Not to be included by hand: a source includes what it uses, and must compile
+/// without this. Only headers of the standard library and other libraries: any change of a header
+/// of our own would recompile everything.
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -8,9 +8,9 @@
 
 namespace tumble {
 
-/// The threads of a world. Loops are shared among them one by one, or, while they are gathered for
-/// a piece of work, at once: then one conducts and the others wait for loops and take chunks of
-/// them as they come, so that a loop costs a microsecond and not a rendezvous of tasks.
+/// The threads of a world. Loops are run as tasks; or, while the threads are gathered for a piece
+/// of work, directly: one thread conducts, and the others wait for loops and take chunks of them,
+/// so that starting a loop costs about a microsecond instead of the synchronisation of tasks.
 class Crew {
  public:
   explicit Crew(int threads);
@@ -18,8 +18,8 @@ class Crew {
 
   int threads() const { return threads_; }
 
-  /// Calls work() on this thread; until it returns the others help in its loops. Whoever fails to
-  /// come is not waited for. One piece of work at a time.
+  /// Calls work() on this thread; until it returns the other threads help in its loops. Threads
+  /// that are busy elsewhere are not waited for. One piece of work at a time.
   template <class Work>
   void gather(const Work& work) {
     if (alone_ || gathered_) return work();
@@ -32,9 +32,9 @@ class Crew {
                  &conducted);
   }
 
-  /// f(i) for every i of [0, n), in any order and on any thread; returns when all are done. No f(i)
-  /// may touch what another writes, or throw among gathered threads. Within such a loop of gathered
-  /// threads a thread is on its own.
+  /// Calls f(i) for every i of [0, n), in any order and on any thread; returns when all are done.
+  /// No f(i) may access what another writes, or throw among gathered threads. Loops inside f, among
+  /// gathered threads, run on the calling thread alone.
   template <class F>
   void each(size_t n, const F& f) {
     const bool conducts = gathered_ && !in_loop_ && conductor_ == std::this_thread::get_id();
@@ -51,10 +51,11 @@ class Crew {
  private:
   static constexpr int bits = 16;
   static constexpr uint32_t most = (1u << bits) - 1;  ///< more than most_chunks
-  static constexpr size_t most_chunks = 512;  ///< of a loop; more indices go several at once
+  /// Limit of the chunks of a loop; with more indices, a chunk has several.
+  static constexpr size_t most_chunks = 512;
 
   using Call = void (*)(const void*, uint32_t);
-  /// Ends, and lets the helpers go, also where the work throws.
+  /// Ends the gathering and releases the helpers, also if the work throws.
   class Gathering {
    public:
     explicit Gathering(Crew& crew) : crew_(crew) {
@@ -99,13 +100,14 @@ class Crew {
     in_loop_ = false;
   }
 
-  /// From which side chunks are taken: the conductor's from the front and the helpers' from the
-  /// back, so that from loop to loop much the same things are in the caches of much the same cores.
+  /// The end from which chunks are taken: the conductor takes from the front and helpers from the
+  /// back, so that from loop to loop the same data tend to be in the caches of the same cores.
   enum class Side { front, back };
 
-  /// Does the next chunk, if any is left. The number of the loop and which of its chunks are left
-  /// are one word: it changes with every chunk that is taken, and what to call changes only when
-  /// all have been. So who takes a chunk has read the call of that very loop.
+  /// Runs the next chunk, if any is left. The number of the loop and the range of its remaining
+  /// chunks are one atomic word, which changes with every chunk that is taken; the call to make
+  /// changes only after all chunks have been taken. A thread that takes a chunk has therefore read
+  /// the call of the same loop.
   bool take_one(Side side) {
     uint64_t left = left_.load(std::memory_order_acquire);
     for (;;) {
@@ -122,14 +124,14 @@ class Crew {
       return true;
     }
   }
-  /// Does chunks of the present loop until none is left; how many.
+  /// Runs chunks of the present loop until none is left; returns how many.
   uint32_t take_all(Side side) {
     uint32_t taken = 0;
     while (take_one(side)) ++taken;
     return taken;
   }
   void help();
-  /// Before looking once more: other threads may need the core.
+  /// Called between two checks for work: yields the core after many idle checks.
   static void rest(int idle) {
     if (idle > 200) std::this_thread::yield();
 #if defined(__x86_64__)
@@ -148,13 +150,14 @@ class Crew {
   bool alone_;
   bool gathered_ = false;
   std::thread::id conductor_;
-  bool in_loop_ = false;  ///< the conductor's
+  bool in_loop_ = false;  ///< of the conductor
   uint64_t loops_ = 0;
   std::atomic<bool> over_{false};
-  alignas(64) std::atomic<uint64_t> left_{0};  ///< loop, end and begin of its chunks that are left
+  /// Number of the loop, end and begin of its remaining chunks.
+  alignas(64) std::atomic<uint64_t> left_{0};
   std::atomic<Call> call_{nullptr};
   std::atomic<const void*> object_{nullptr};
-  alignas(64) std::atomic<uint32_t> done_{0};  ///< chunks that helpers did
+  alignas(64) std::atomic<uint32_t> done_{0};  ///< number of chunks that helpers have run
 };
 
 }  // namespace tumble

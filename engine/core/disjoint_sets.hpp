@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// Numbers below n in sets that are joined one after the other. The least member stands for its
-/// set, in whatever order they were joined.
+/// Union-find over the numbers below n. The representative of a set is its least member, whatever
+/// the order of the unions.
 class DisjointSets {
  public:
   explicit DisjointSets(size_t n = 0) { reset(n); }
@@ -17,7 +17,7 @@ class DisjointSets {
     parent_.resize(n);
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
-  /// The same where only these are used from here on.
+  /// The same, if only these numbers will be used.
   void reset(size_t n, std::span<const uint32_t> used) {
     parent_.resize(n);
     for (const uint32_t i : used) parent_[i] = i;

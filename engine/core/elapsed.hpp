@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// Time on the wall since `start` [s]. For what is reported, never for what is decided.
+/// Wall time since `start` [s]. For reports only, never for decisions.
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

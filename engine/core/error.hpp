@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// What kind of fault an Error reports; decides the exit code of the program.
+/// Kind of an Error; determines the exit code of the program.
 enum class ErrorCode {
   invalid_argument,  ///< a caller's value is out of range
   not_found,         ///< a name, file or stale id
@@ -12,13 +12,13 @@ enum class ErrorCode {
   io,                ///< reading or writing failed
   unsupported,       ///< understood, but not possible here
   numeric,           ///< a non-finite value or an unverified solve
-  cancelled,         ///< somebody asked it to stop; everything is as before
+  cancelled,         ///< a stop was requested; everything is as before
   internal,          ///< a broken invariant of our own
 };
 
 std::string_view to_string(ErrorCode code);
 
-/// A fault that a person can act on: what went wrong, where, and what cures it.
+/// A fault that a user can act on: what is wrong, where, and how to correct it.
 struct Error {
   ErrorCode code = ErrorCode::internal;
   std::string message;  ///< what is wrong, with the offending value: "radius must be > 0, got -1 m"
@@ -29,10 +29,9 @@ struct Error {
   std::string text() const;
 };
 
-/// Ends the program: a Result was asked for the value that it does not have. Says which error it
-/// held.
+/// Ends the program with a message: the value of a Result was read, which has an error instead.
 [[noreturn]] void no_value(const Error& error);
-/// Ends the program: a Result that succeeded was asked for its error.
+/// Ends the program: the error of a Result was read, which has a value instead.
 [[noreturn]] void no_error();
 
 }  // namespace tumble

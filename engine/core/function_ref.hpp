@@ -8,9 +8,9 @@ namespace tumble {
 template <class Signature>
 class FunctionRef;
 
-/// A callable object that is only referred to: for parameters of functions that call what they are
-/// given and do not keep it. Must not outlive the object. (A std::function owns a copy, and its
-/// header brings 10,000 lines.)
+/// A non-owning reference to a callable object, for parameters that are called during the function
+/// and not stored. Must not outlive the object. (A std::function owns a copy, and its header has
+/// 10,000 lines.)
 template <class R, class... Args>
 class FunctionRef<R(Args...)> {
  public:

@@ -23,7 +23,8 @@ struct Handle {
   friend auto operator<=>(Handle a, Handle b) = default;
 };
 
-/// Gives out handles and takes them back, last freed first; the order is part of the state.
+/// Allocates and frees handles, reusing the slot that was freed last; this order is part of the
+/// state.
 template <class Tag>
 class HandlePool {
  public:
@@ -39,7 +40,7 @@ class HandlePool {
     return {index, generations_[index]};
   }
 
-  /// Frees a live handle; a stale one is left alone and answers false.
+  /// Frees a live handle; for a stale one does nothing and returns false.
   bool release(Handle<Tag> h) {
     if (!contains(h)) return false;
     alive_[h.index] = 0;

@@ -8,9 +8,9 @@ namespace tumble {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Receives the messages of one World or one loader; given in by the owner, never global. Holds
-/// anything that can be called as f(level, message), shared by its copies; empty it is false and
-/// must not be called. (A std::function would bring 10,000 lines into world.hpp.)
+/// Receives the messages of one World or one loader; provided by its owner, never global. Holds a
+/// callable f(level, message), shared by copies; an empty sink converts to false and must not be
+/// called. (A std::function would add 10,000 lines to world.hpp.)
 class LogSink {
  public:
   LogSink() = default;

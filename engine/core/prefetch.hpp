@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Asks for the cache lines of [at, at + Bytes) a while before they are read; wherever it points,
-/// nothing else happens. For loops whose steps are too wide for the hardware to foresee.
+/// Prefetches the cache lines of [at, at + Bytes), which need not be valid addresses. For loops
+/// whose access pattern the hardware cannot predict.
 template <size_t Bytes = 1>
 void prefetch([[maybe_unused]] const void* at) {
 #if defined(__GNUC__)
@@ -14,7 +14,7 @@ void prefetch([[maybe_unused]] const void* at) {
 #endif
 }
 
-/// The same for what is about to be written.
+/// The same for memory that is about to be written.
 template <size_t Bytes = 1>
 void prefetch_to_write([[maybe_unused]] const void* at) {
 #if defined(__GNUC__)
@@ -22,7 +22,7 @@ void prefetch_to_write([[maybe_unused]] const void* at) {
 #endif
 }
 
-/// The first Bytes of what a loop over `all` reads some steps after i.
+/// Prefetches the first Bytes of the element that a loop over `all` reads some steps after i.
 template <size_t Bytes = 1, class T>
 void prefetch_ahead(std::span<T> all, size_t i, size_t steps = 8) {
   prefetch<Bytes>(&all[std::min(i + steps, all.size() - 1)]);

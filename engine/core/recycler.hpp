@@ -8,13 +8,13 @@
 
 namespace tumble {
 
-/// Makes shared objects, and uses the memory of those that nobody holds any more again: with that
-/// of whatever the objects own, and that of the shared_ptr's counts. Objects may outlive it, and
-/// the last holder may be any thread.
+/// Makes shared objects, reusing those that nobody holds any more, with all the memory that they
+/// own and that of the shared_ptr's control block. Objects may outlive the recycler, and the last
+/// holder may be on any thread.
 template <class T>
 class Recycler {
  public:
-  /// Keeps at most so many objects for later.
+  /// Keeps at most so many unused objects.
   explicit Recycler(size_t most = 4) : store_(std::make_shared<Store>()) { keep_at_most(most); }
   void keep_at_most(size_t most) {
     const std::lock_guard lock(store_->mutex);
@@ -22,7 +22,7 @@ class Recycler {
     store_->idle.reserve(most);
   }
 
-  /// An object as its last holder left it, or a new one.
+  /// An object in the state in which its last holder left it, or a new one.
   std::shared_ptr<T> get() {
     std::unique_ptr<Node> node = store_->take();
     if (!node) node = std::make_unique<Node>();
@@ -31,7 +31,8 @@ class Recycler {
   }
 
  private:
-  static constexpr size_t counts_size = 96;  ///< of a shared_ptr with deleter and allocator [bytes]
+  /// Size of the control block of a shared_ptr with deleter and allocator [bytes].
+  static constexpr size_t counts_size = 96;
 
   struct Node {
     T value{};
@@ -57,7 +58,8 @@ class Recycler {
   struct StaysInNode {
     void operator()(T*) const {}
   };
-  /// The allocator of the counts: they live in the node, which is free when they are.
+  /// Allocates the control block inside the node, which is free for reuse when the block is
+  /// released.
   template <class U>
   struct Place {
     using value_type = U;

@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// Finds an entry by its `name` member in an explicit list (`all_broad_phases()`, ...). The error
-/// names what there is, and the nearest name.
+/// Finds an entry by its `name` member in a list such as all_broad_phases(). The error lists the
+/// names that exist, and the nearest one.
 template <class Entry>
 Result<const Entry*> find_named(const std::vector<Entry>& entries, std::string_view name,
                                 std::string_view kind) {

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Either a T or the Error that says why there is none.
+/// Either a T, or the Error that explains why there is none.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -16,7 +16,7 @@ class [[nodiscard]] Result {
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  /// The value. Where there is none the program ends, with the error on stderr: in every build.
+  /// The value. If there is none the program ends with the error on stderr, in every build.
   T& value() & { return *checked(std::get_if<0>(&state_)); }
   const T& value() const& { return *checked(std::get_if<0>(&state_)); }
   T&& value() && { return std::move(*checked(std::get_if<0>(&state_))); }

@@ -11,14 +11,15 @@ struct StageTime {
   double seconds = 0;     ///< [s]
 };
 
-/// The stages of a step or of a frame, in the order in which they came first. They are in place:
-/// every step copies them, and none shall allocate.
+/// The stages of a step or of a frame, in the order of their first occurrence. Stored in place,
+/// since every step copies them without allocating.
 class StageTimes {
  public:
   static constexpr size_t most = 24;
 
   void clear() { size_ = 0; }
-  /// Adds to the stage of this name, or appends it; when there are too many, to the last one.
+  /// Adds to the stage of this name, or appends it; if there are too many stages, adds to the last
+  /// one.
   void add(std::string_view name, double seconds);
 
   size_t size() const { return size_; }

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// The candidate nearest to `word` by edit distance (case ignored, transpositions count one; one
-/// that is a whole part of it, as `velocity` of `linear_velocity`, is one edit away), or empty when
-/// none is near enough to be what was meant.
+/// The candidate nearest to `word` by edit distance, or empty if none is near enough to be meant.
+/// Case is ignored, a transposition counts as one edit, and so does a candidate that is a whole
+/// part of the word, as `velocity` is of `linear_velocity`.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 /// "unknown KIND 'NAME', did you mean 'X'? Known: a, b, c"

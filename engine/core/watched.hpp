@@ -3,19 +3,19 @@
 
 namespace tumble {
 
-/// Gets how much of a piece of work is done, from 0 to 1.
+/// Receives the completed share of a piece of work, from 0 to 1.
 using ProgressSink = std::function<void(double share)>;
 
 namespace detail {
-/// Who watches the work of this thread; null: nobody.
+/// The sink of the work on this thread; null: none.
 inline thread_local constinit const ProgressSink* present_watcher = nullptr;
 }  // namespace detail
 
-/// While it lives, what this thread does tells somebody how far it has got, without a word of it in
-/// any signature in between. Threads of a Crew that help are not watched.
+/// During its life, work on this thread reports its progress to a sink, without a parameter in the
+/// functions in between. Threads of a Crew that help do not report.
 class Watched {
  public:
-  /// The sink outlives it; null: nobody watches.
+  /// The sink must outlive it; null: no reports.
   explicit Watched(const ProgressSink* sink) noexcept : before_(detail::present_watcher) {
     detail::present_watcher = sink;
   }
@@ -27,7 +27,7 @@ class Watched {
   const ProgressSink* before_;
 };
 
-/// To be called by whatever takes seconds, a few times in each of them or more often.
+/// To be called by work that takes seconds, several times per second.
 inline void tell_progress(double share) {
   if (const ProgressSink* sink = detail::present_watcher) (*sink)(share);
 }

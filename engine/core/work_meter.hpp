@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// Counts the work of a computation in one unit, where it is done: a multiplication with an
-/// addition in a loop over matrices, and of anything else as many of these as take about as long.
-/// A count and no clock: the same on every machine, in every run.
+/// Counts the work of a computation, in units of about one multiplication with an addition in a
+/// loop over matrices. A count instead of a clock, so that it is the same on every machine and in
+/// every run.
 class WorkMeter {
  public:
   static constexpr uint64_t any_amount = ~uint64_t{0};
@@ -24,12 +24,12 @@ class WorkMeter {
   uint64_t allowed_, spent_ = 0;
 };
 
-/// While it lives, what this thread does is charged to a meter, and asked to stop
-/// (stop_requested()) when it has done more than the meter allows; whoever metered it asks the
-/// meter last of all and throws away what it left. A request to stop from elsewhere is passed on
-/// with the next charge. Threads of a Crew are not metered with the thread that calls them: a loop
-/// whose work is to count is called without a meter and gives each of its bodies one, so that what
-/// one may do does not depend on who was first.
+/// During its life, work on this thread is charged to a meter, and is asked to stop
+/// (stop_requested()) when it exceeds the meter's limit; the code that metered it checks the meter
+/// at the end and discards an incomplete result. A request to stop from elsewhere is passed on with
+/// the next charge. Threads of a Crew are not metered with the thread that calls them: for a loop
+/// whose work is to count, each iteration has a meter of its own, so that its limit does not depend
+/// on the order of execution.
 class Metered {
  public:
   explicit Metered(WorkMeter& meter) noexcept;
@@ -52,7 +52,7 @@ class Metered {
 };
 
 namespace detail {
-/// What the work of this thread is charged to; null: nobody counts.
+/// The meter of the work on this thread; null: none.
 inline thread_local constinit Metered* present_meter = nullptr;
 }  // namespace detail
 
@@ -69,7 +69,7 @@ inline Metered::~Metered() {
   detail::present_meter = before_;
 }
 
-/// To be called by whatever takes time, once for some microseconds of it. Costs a few loads.
+/// To be called by work at intervals of some microseconds. Costs a few loads.
 inline void charge_work(uint64_t units) noexcept {
   if (Metered* present = detail::present_meter) present->charge(units);
 }
@@ -79,8 +79,8 @@ inline void charge_work(size_t a, size_t b, size_t c = 1) noexcept {
   charge_work(uint64_t(a) * uint64_t(b) * uint64_t(c));
 }
 
-/// Whether work of about so many units is to be begun: not where the meter does not allow as much,
-/// which is then charged with all of it, as it would only be broken off in the middle, nor after a
+/// Whether work of about so many units may begin: not if it exceeds what the meter allows, in which
+/// case the meter is charged with all of it, since the work would only be interrupted; nor after a
 /// request to stop.
 inline bool may_begin_work(uint64_t units) noexcept {
   Metered* present = detail::present_meter;

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// Three answers, one for each coefficient.
+/// Results of a comparison, by coefficient.
 struct Mask3 {
   bool x, y, z;
   constexpr bool all() const { return x && y && z; }
@@ -17,8 +17,8 @@ struct Mask3 {
   }
 };
 
-/// Three numbers with operations by coefficient, numbers beside them included: what
-/// Vector3::array() gives, and what becomes a vector again by itself.
+/// Three numbers with coefficient-wise operations, also with scalars; returned by Vector3::array(),
+/// and converts back to a vector implicitly.
 template <class T>
 class Array3 {
  public:

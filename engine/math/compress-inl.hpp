@@ -16,9 +16,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 
-/// What hn::Compress does, for several vectors with one mask. Where the processor has no such
-/// instruction, Highway's own looks its indices up in a table inside of the function, which GCC
-/// copies onto the stack every time.
+/// The operation of hn::Compress, for several vectors with one mask. On processors without such an
+/// instruction, Highway's implementation has a local index table, which GCC copies onto the stack
+/// in each call.
 template <class D>
 class Compressor {
  public:
@@ -30,7 +30,7 @@ class Compressor {
     hwy::HWY_NAMESPACE::StoreMaskBits(D(), keep, bits);
     bits_ = bits[0] | unsigned(bits[1]) << 8;
   }
-  /// The lanes that are kept, in their order, and behind them others.
+  /// The lanes that are kept, in their order, followed by the others.
   template <class V>
   HWY_INLINE V operator()(V v) const {
     namespace hn = hwy::HWY_NAMESPACE;
@@ -45,7 +45,7 @@ class Compressor {
       return hn::TableLookupLanes(v, hn::IndicesFromVec(d, hn::PromoteTo(indices, row)));
     }
   }
-  /// How many are kept.
+  /// Number of lanes that are kept.
   HWY_INLINE size_t count() const { return size_t(std::popcount(bits_)); }
 
  private:

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Of as many lanes a mask may choose without an instruction for it.
+/// Largest number of lanes for which the table is used.
 constexpr size_t compress_lanes = 8;
 
 /// By mask: the lanes that it keeps, in their order, then the others in theirs. Of a mask of fewer

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-// The way to and from vectors and matrices of a size that is found at run time, which are Eigen's.
-// For sources that hand small vectors to a solver of such a size; headers that many read should do
-// without, since Eigen is two thirds of what a compiler would read for them.
+// Conversions to and from vectors and matrices of dynamic size, which are Eigen's. For sources that
+// pass small vectors to a solver of dynamic size. Widely included headers should avoid it: Eigen
+// would be two thirds of what they compile.
 namespace tumble {
 
 inline Eigen::Map<const Eigen::Vector3d> dense(const Vec3& v) {
@@ -14,12 +14,12 @@ inline Eigen::Map<const Eigen::Vector3d> dense(const Vec3& v) {
 inline Eigen::Map<const Eigen::Matrix3d> dense(const Mat3& m) {
   return Eigen::Map<const Eigen::Matrix3d>(m.data());
 }
-/// Three coefficients of an expression as a vector of the house.
+/// Three coefficients of an expression as a Vec3.
 template <class Expression>
 Vec3 small_vector(const Eigen::MatrixBase<Expression>& v) {
   return {v(0), v(1), v(2)};
 }
-/// Three by three coefficients of an expression as a matrix of the house.
+/// Three by three coefficients of an expression as a Mat3.
 template <class Expression>
 Mat3 small_matrix(const Eigen::MatrixBase<Expression>& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Error-free transformations and sums of two doubles: about 106 bits where 53 do not do.
+/// Error-free transformations, and double-double numbers of about 106 bits.
 namespace tumble {
 
 /// a + b = high + low exactly (Knuth 1969).
@@ -10,7 +10,7 @@ inline void two_sum(double a, double b, double& high, double& low) {
   low = (a - av) + (b - bv);
 }
 
-/// a b = high + low exactly, short of overflow and underflow (Veltkamp; Dekker 1971).
+/// a b = high + low exactly, barring overflow and underflow (Veltkamp; Dekker 1971).
 inline void two_product(double a, double b, double& high, double& low) {
   constexpr double splitter = 134217729.0;  // 2^27 + 1
   const double ca = splitter * a, a1 = ca - (ca - a), a2 = a - a1;

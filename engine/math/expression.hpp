@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// Value of a named quantity, or nothing when there is no such name.
+/// Value of a named quantity, or empty if there is no such name.
 using NameLookup = std::function<std::optional<double>(std::string_view)>;
 
 /// An arithmetic expression over named quantities: numbers, names such as `time` or
@@ -20,11 +20,11 @@ using NameLookup = std::function<std::optional<double>(std::string_view)>;
 /// true. The same bits on every machine (math/det).
 class Expression {
  public:
-  /// Errors say at which column what was expected.
+  /// Errors give the column and what was expected there.
   static Result<Expression> parse(std::string_view text);
   /// Errors: an unknown name, a result that is not finite.
   Result<double> evaluate(const NameLookup& names) const;
-  /// Whether it is true or false rather than a quantity: a comparison, or a logical combination.
+  /// Whether its value is a truth value: a comparison, or a logical combination.
   bool is_condition() const;
   /// Every name that occurs, each once.
   const std::vector<std::string>& names() const { return names_; }

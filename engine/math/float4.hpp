@@ -17,8 +17,8 @@ struct Float4 {
   explicit Float4(float x) : v(_mm_set1_ps(x)) {}
   Float4(float x, float y, float z, float w) : v(_mm_setr_ps(x, y, z, w)) {}
 
-  /// Three doubles rounded to nearest, the fourth lane 0. By instruction: where g++ 12 vectorises
-  /// double(float(x)) by itself it may leave out the rounding.
+  /// Three doubles rounded to nearest, the fourth lane 0. By intrinsics, because g++ 12 may omit
+  /// the rounding when it vectorises double(float(x)).
   static Float4 round(double x, double y, double z) {
     return _mm_movelh_ps(_mm_cvtpd_ps(_mm_setr_pd(x, y)), _mm_cvtpd_ps(_mm_setr_pd(z, 0)));
   }

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// A function of one variable at one point: value, first and second derivative. Arithmetic follows
-/// the rules of Leibniz and of the chain (Griewank & Walther, Evaluating Derivatives, 2008, 13.2).
+/// Value, first and second derivative of a function of one variable at one point, with arithmetic
+/// by the product and chain rules (Griewank & Walther, Evaluating Derivatives, 2008, 13.2).
 struct Jet {
   double v = 0, d = 0, dd = 0;
 
@@ -33,7 +33,7 @@ inline Jet sqrt(const Jet& x) {
   return {r, dr, (0.5 * x.dd - dr * dr) / r};
 }
 
-/// Three of them: a point or a direction on its way.
+/// A point or direction as a function of one variable.
 using Jet3 = Triple<Jet>;
 
 inline Vec3 value(const Plain3& p) {
@@ -51,7 +51,7 @@ inline double value(const Jet& x) {
 inline Vec3 first(const Jet3& p) {
   return {p.x.d, p.y.d, p.z.d};
 }
-/// From the value and its derivatives; of these a plain triple takes the value alone.
+/// Made of a value and its derivatives; a plain triple takes the value only.
 template <class Number>
 Triple<Number> triple_of(const Vec3& v, const Vec3& d, const Vec3& dd) {
   if constexpr (std::is_same_v<Number, Jet>)

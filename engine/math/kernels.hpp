@@ -3,8 +3,8 @@
 
 #include <emmintrin.h>
 
-/// Inner loops whose bits depend on nothing but their input: sums go by two pairs of lanes of SSE2,
-/// part of every x86-64 machine, and are added up in one order; element-wise loops have no order.
+/// Inner loops whose bits depend on nothing but their input: sums use two pairs of SSE2 lanes,
+/// which every x86-64 machine has, and are added in one order; element-wise loops have no order.
 namespace tumble {
 
 /// a . b

@@ -9,9 +9,9 @@ namespace tumble {
 /// plain loops of fixed order: the same bits from every compiler. 2/3 n^3 operations.
 class LuFactor {
  public:
-  /// Factors the n x n matrix `a`, given by columns. Columns whose greatest
-  /// remaining entry is at most `least` times the greatest entry of the matrix make it singular.
-  /// False then, and where a stop is requested.
+  /// Factors the n x n matrix `a`, given by columns. Returns false if it is singular, that is if
+  /// the greatest remaining entry of a column is at most `least` times the greatest entry of the
+  /// matrix, or if a stop is requested.
   bool factor(std::span<const double> a, int n, double least = 1e-14);
   /// x := A^-1 x; only after a factor() that returned true.
   void solve(double* x) const;

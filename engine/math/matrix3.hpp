@@ -7,7 +7,7 @@ namespace tumble {
 template <class T>
 class Matrix3;
 
-/// A vector as a row: what a transposed column and a matrix's row are.
+/// A row vector: a transposed column, or a row of a matrix.
 template <class T>
 class Row3 {
  public:
@@ -44,7 +44,7 @@ class Row3 {
   Vector3<T> v_;
 };
 
-/// A diagonal matrix, known by its diagonal: Vector3::asDiagonal().
+/// A diagonal matrix, stored as its diagonal: Vector3::asDiagonal().
 template <class T>
 class Diagonal3 {
  public:
@@ -64,7 +64,7 @@ class Diagonal3 {
   Vector3<T> v_;
 };
 
-/// Three by three numbers, kept by columns.
+/// A 3 x 3 matrix, stored by columns.
 template <class T>
 class Matrix3 {
  public:
@@ -73,7 +73,7 @@ class Matrix3 {
   Matrix3() = default;  ///< its numbers are not set
   constexpr Matrix3(const Matrix3&) = default;
   constexpr Matrix3& operator=(const Matrix3&) & = default;
-  /// By rows, as one writes them.
+  /// Entries in row order.
   constexpr Matrix3(T xx, T xy, T xz, T yx, T yy, T yz, T zx, T zy, T zz)
       : c_{{xx, yx, zx}, {xy, yy, zy}, {xz, yz, zz}} {}
   constexpr Matrix3(const Diagonal3<T>& d)
@@ -146,7 +146,7 @@ class Matrix3 {
                         c_[2].cwiseProduct(b.c_[2]));
   }
   bool allFinite() const { return c_[0].allFinite() && c_[1].allFinite() && c_[2].allFinite(); }
-  /// Whether no number is larger than `most`.
+  /// Whether no absolute value exceeds `most`.
   bool isZero(T most = detail::rounding<T>) const {
     return c_[0].isZero(most) && c_[1].isZero(most) && c_[2].isZero(most);
   }

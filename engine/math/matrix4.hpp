@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// Four by four numbers, kept by columns as GL takes them: maps of homogeneous coordinates.
+/// A 4 x 4 matrix, stored by columns as OpenGL expects, for transforms of homogeneous coordinates.
 template <class T>
 class Matrix4 {
  public:
@@ -49,7 +49,7 @@ class Matrix4 {
   static constexpr std::ptrdiff_t size() { return 16; }
 
   constexpr Matrix4 transpose() const { return from_columns(row(0), row(1), row(2), row(3)); }
-  /// By elimination with the greatest pivot of each column; not finite where singular.
+  /// By elimination with partial pivoting; not finite if singular.
   Matrix4 inverse() const {
     Matrix4 a = transpose(), out = Identity();  // by rows: a column of `a` is a row of this
     for (int k = 0; k < 4; ++k) {

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// w + x i + y j + z k; a rotation where its length is 1.
+/// w + x i + y j + z k; a rotation if its length is 1.
 template <class T>
 class Quaternion {
  public:
@@ -15,7 +15,8 @@ class Quaternion {
   constexpr Quaternion(T w, const Vector3<T>& v) : c_(v[0], v[1], v[2], w) {}
   /// From (x, y, z, w), the order of coeffs().
   constexpr explicit Quaternion(const Vector4<T>& coefficients) : c_(coefficients) {}
-  /// Of a rotation matrix (Shoemake 1985, "Animating Rotation with Quaternion Curves", appendix).
+  /// The quaternion of a rotation matrix (Shoemake 1985, "Animating Rotation with Quaternion
+  /// Curves", appendix).
   explicit Quaternion(const Matrix3<T>& m) {
     if (const T trace = m.trace(); trace > 0) {
       const T root = std::sqrt(trace + 1), s = T(0.5) / root;
@@ -53,7 +54,7 @@ class Quaternion {
   Quaternion normalized() const { return Quaternion(c_.normalized()); }
   void normalize() & { c_.normalize(); }
   constexpr Quaternion conjugate() const { return {c_[3], -c_[0], -c_[1], -c_[2]}; }
-  /// Zero where this is zero.
+  /// Zero for the zero quaternion.
   constexpr Quaternion inverse() const {
     const T n = squaredNorm();
     return n > 0 ? Quaternion(conjugate().c_ / n) : Quaternion(Vector4<T>::Zero());

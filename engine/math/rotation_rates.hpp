@@ -1,12 +1,12 @@
 #pragma once
 #include "engine/math/types.hpp"
 
-/// Time derivatives of what turns with angular velocity omega [rad/s] and angular acceleration
-/// alpha [rad/s2], both in world axes (Coutinho 2013, Guide to Dynamic Simulations of Rigid Bodies
-/// and Particle Systems, 10). All results in world axes unless said otherwise.
+/// Time derivatives of quantities that rotate with angular velocity omega [rad/s] and angular
+/// acceleration alpha [rad/s2], both in world axes (Coutinho 2013, Guide to Dynamic Simulations of
+/// Rigid Bodies and Particle Systems, 10). All results in world axes unless stated otherwise.
 namespace tumble {
 
-/// d r/dt of a vector (world axes) attached to a turning body (10.2).
+/// d r/dt of a vector (world axes) fixed in a rotating body (10.2).
 Vec3 attached_rate(const Vec3& r, const Vec3& omega);
 /// d2 r/dt2 of the same.
 Vec3 attached_second_rate(const Vec3& r, const Vec3& omega, const Vec3& alpha);
@@ -26,7 +26,7 @@ Mat3 inertia_rate(const Mat3& inertia_world, const Vec3& omega);
 /// The results are no unit quaternions.
 Quat quaternion_rate(const Quat& q, const Vec3& omega);
 Quat quaternion_second_rate(const Quat& q, const Vec3& omega, const Vec3& alpha);
-/// The angular velocity that a rate of the unit quaternion q means: the vector part of 2 q' q*.
+/// The angular velocity of a unit quaternion q with this rate: the vector part of 2 q' q*.
 Vec3 omega_of(const Quat& q, const Quat& rate);
 
 /// d (v/|v|)/dt; v is not zero.
@@ -34,9 +34,9 @@ Vec3 unit_vector_rate(const Vec3& v, const Vec3& rate);
 /// d2 (v/|v|)/dt2; v is not zero.
 Vec3 unit_vector_second_rate(const Vec3& v, const Vec3& rate, const Vec3& second_rate);
 
-/// Rates of the two tangents of `tangent_frame(n)` where the unit normal changes by `n_rate`, which
-/// is at right angles to n (10.4). False within 1e-15 of the one normal at which that frame has
-/// none.
+/// Rates of the two tangents of `tangent_frame(n)` if the unit normal changes by `n_rate`, which
+/// must be perpendicular to n (10.4). False within 1e-15 of the one normal at which the frame is
+/// discontinuous.
 [[nodiscard]] bool tangent_frame_rate(const Vec3& n, const Vec3& n_rate, Vec3& t1_rate,
                                       Vec3& t2_rate);
 

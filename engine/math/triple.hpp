@@ -6,10 +6,10 @@
 
 namespace tumble {
 
-/// Three coordinates of any kind of number: doubles, double-doubles, estimates, exact sums. Of
-/// doubles it has no alignment and no packets: in loops whose every result feeds the next
-/// operation, coordinates stay in registers one by one, and nothing waits for memory that was
-/// written in other widths.
+/// Three coordinates of any number type: doubles, double-doubles, estimates, exact sums. For
+/// doubles it has no alignment and no SIMD: in loops whose every result feeds the next operation,
+/// coordinates then stay in scalar registers, without stalls by loads of a different width than the
+/// stores.
 template <class T>
 struct Triple {
   T x, y, z;

@@ -22,7 +22,7 @@ void find_apart(WorldState& s, PairFilter& out) {
     for (const SpringMesh::Link& l : def->mesh->links) {
       const uint32_t a = slots[l.a], b = slots[l.b];
       if (a == ParticleBlocks::no_slot || b == ParticleBlocks::no_slot || a == b) continue;
-      if (!s.blocks.holds(a) && !s.blocks.holds(b)) continue;  // two bodies that a rope ties
+      if (!s.blocks.holds(a) && !s.blocks.holds(b)) continue;  // two bodies that a rope connects
       out.add(a, b);
       any = true;
     }

@@ -5,9 +5,10 @@ namespace tumble {
 class PairFilter;
 struct WorldState;
 
-/// All pairs that do not collide with each other while blocks are there: what joints tie together,
-/// and the two ends of each link of a mesh, which would wedge each other apart where a cloth is
-/// pressed together along its threads.
+/// Collects the pairs of bodies and particle blocks that do not collide with each other in this
+/// tick; to be called once the blocks are appended. These are pairs that joints exclude, and the
+/// two ends of each link of a spring mesh where one of them is a particle: contacts between these
+/// would push a cloth apart when it is compressed along its threads.
 void find_apart(WorldState& state, PairFilter& out);
 
 }  // namespace tumble

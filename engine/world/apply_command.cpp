@@ -9,8 +9,8 @@ namespace {
 struct Apply {
   WorldState& s;
 
-  /// Wakes a body of which no more is changed than what it was given, so that the rest of the world
-  /// may sleep on.
+  /// Wakes a body that the command changes in nothing but what it sets, so that the rest of the
+  /// world may stay asleep.
   void rouse(BodyId id) {
     RigidBody* b = s.bodies.find(id);
     if (!b) return;
@@ -19,7 +19,8 @@ struct Apply {
     s.frames.mark_changed(id.index);
   }
 
-  /// Joints count full turns by the velocities that they know.
+  /// Updates the coordinates of a body's joints, which count full turns from the stored values and
+  /// rates.
   void tell_joints(BodyId id) {
     for (const JointId joint : s.joints.at_body(id))
       follow_coordinates(s.joints.joints[joint.index], s.bodies.bodies, 0);
@@ -50,7 +51,7 @@ struct Apply {
     return {};
   }
 
-  /// Forgets what is known of a body's contacts, and wakes what leans on it.
+  /// Drops the stored contacts of a body, and wakes what touches it.
   void forget_contacts(BodyId id) {
     wake_touching(s.bodies.bodies, s.contacts, id.index);
     wake_grains_on(s.grain_touches, id.index, s.particles);
@@ -71,7 +72,7 @@ struct Apply {
     const BodyDef& known = *s.body_defs[c.id.index];
     const bool same_course = def.course == known.course;
     if (same_course && !body->teleported && body->v == old->v && body->omega == old->omega) {
-      def.pose = known.pose;  // where its way begins, not where it is by now
+      def.pose = known.pose;  // the pose at which its course begins, not its present pose
     } else {
       if (same_course) def.course = nullptr;
       end_course(s, c.id.index);
@@ -110,7 +111,7 @@ struct Apply {
     return {};
   }
 
-  /// A spring that loses one end wakes the other; it stays, without effect.
+  /// A spring that loses one end wakes the body at the other; it stays, without effect.
   void release_anchors(const ForceDef& def, BodyId gone) {
     bool touched = false;
     for (const Anchor& a : anchors(def)) touched |= a.kind == Anchor::Kind::body && a.body == gone;
@@ -128,7 +129,7 @@ struct Apply {
     end_course(s, c.id.index);
     b->pose.q = c.body_frame.q;
     b->pose.x = c.body_frame.point(b->centre_body);
-    s.event.remove_body(c.id.index);  // overlap where it is now is new
+    s.event.remove_body(c.id.index);  // overlap at the new pose counts as initial
     tell_joints(c.id);
     b->teleported = true;
     wake(*b);
@@ -145,7 +146,7 @@ struct Apply {
     tell_joints(c.id);
     rouse(c.id);
     if (!b->dynamic())
-      s.forget_bodies();  // it belongs to no pile, and starts to seek contacts, or ends
+      s.forget_bodies();  // it has no island, and begins or ceases to look for contacts
     return {};
   }
 
@@ -163,7 +164,7 @@ struct Apply {
     return {};
   }
 
-  /// Fields act on every body, but drag without wind leaves alone what rests.
+  /// Whether a force without anchors may set a resting body in motion; drag without wind does not.
   static bool moves_resting(const ForceDef& def) {
     if (std::holds_alternative<LinearDragDef>(def)) return false;
     if (const auto* drag = std::get_if<QuadraticDragDef>(&def))
@@ -216,7 +217,7 @@ struct Apply {
       if (RigidBody* b = s.bodies.find(end)) wake(*b);
   }
 
-  /// What a joint that changes moves besides its own bodies.
+  /// Wakes the bodies of the joints that are coupled with a joint that changes.
   void wake_coupled(JointId id) {
     for (const JointCoupling& c : s.joints.couplings)
       if (c.a == id.index || c.b == id.index)
@@ -268,8 +269,8 @@ struct Apply {
     return {};
   }
 
-  /// What is known of the particles of a system that begins anew: numbers of particles are given
-  /// again from 1 on, and 0 is nobody's.
+  /// Drops what is stored about the particles of a system that begins anew: their ids count from 1
+  /// again, and 0 is no particle's id.
   void forget_particles(ParticleSystemId id) {
     const ParticleSystem& old = s.particles[id.index];
     for (const EmitterId from : old.emitter)
@@ -362,7 +363,7 @@ struct Apply {
     return {};
   }
 
-  /// Whether what rests under the old settings may not under the new ones.
+  /// Whether bodies that rest under the old settings may not rest under the new ones.
   static bool disturbs_rest(const WorldSettings& old, const WorldSettings& now) {
     return now.gravity != old.gravity || now.tick != old.tick || now.stepper != old.stepper ||
            now.realtime.sleeping != old.realtime.sleeping ||
@@ -385,7 +386,7 @@ struct Apply {
 
 }  // namespace
 
-/// Whether a command says by itself which bodies it changes.
+/// Whether a command marks the bodies that it changes by itself.
 bool names_bodies(const Command& command) {
   return std::holds_alternative<SetVelocity>(command) ||
          std::holds_alternative<ApplyImpulse>(command) ||

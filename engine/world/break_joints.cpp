@@ -21,15 +21,15 @@ bool dynamic(const WorldState& s, uint32_t slot) {
   return slot != no_body && s.bodies.bodies[slot].dynamic();
 }
 
-/// Whether time-stepping moved the joint in the last tick, which tells all about it.
+/// Whether time-stepping moved the joint in the last tick; its solver has then updated the joint.
 bool time_stepped(const WorldState& s, const Joint& joint) {
   return std::ranges::any_of(std::array{joint.a, joint.b}, [&s](uint32_t slot) {
     return dynamic(s, slot) && s.event.time_stepped[slot].last > 0;
   });
 }
 
-/// Under the event stepper, which does not tell: the values of the coordinates, and what smooth
-/// forces did along them, as the mean of the ends of the tick.
+/// Under the event stepper, which does not update them: the values of the coordinates, and the
+/// impulses of smooth forces along them, by the mean of the forces at both ends of the tick.
 void follow_events(WorldState& s, Joint& joint, double h) {
   if (time_stepped(s, joint)) return;
   const size_t kept = row_count(joint.kind);
@@ -38,7 +38,7 @@ void follow_events(WorldState& s, Joint& joint, double h) {
   for (size_t k = 0; k < most_coordinates; ++k)
     if (joint.driven(k))
       before[k] = smooth_force((*joint.drives)[k], joint.value[k], joint.rate[k], 0);
-  // What no group moved by events turns evenly.
+  // Joints that no group has moved by events turn uniformly.
   const auto slot = size_t(&joint - s.joints.joints.data());
   const bool counted = slot < s.event.turned.size() && s.event.turned[slot];
   for (size_t k = 0; counted && k < most_coordinates; ++k)
@@ -52,7 +52,7 @@ void follow_events(WorldState& s, Joint& joint, double h) {
   }
 }
 
-/// What the joint did to B in the mean of the tick.
+/// Mean wrench of the joint on B over the tick.
 JointWrench mean_load(const WorldState& s, const Joint& joint) {
   if (s.settings.stepper == "event") {
     JointWrench load = mean_wrench(joint, joint_sides(joint, s.bodies.bodies));

@@ -25,7 +25,7 @@ std::set<Edge> torn_edges(const SpringMesh& mesh, const std::vector<MeshNode>& n
   return torn;
 }
 
-/// Whether any two of some nodes are the ends of a torn link.
+/// Whether any two of these nodes are the ends of a broken link.
 bool over(const std::set<Edge>& torn, std::span<const uint32_t> nodes) {
   for (size_t i = 0; i < nodes.size(); ++i)
     for (size_t k = i + 1; k < nodes.size(); ++k)

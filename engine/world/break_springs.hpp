@@ -3,9 +3,9 @@
 
 namespace tumble {
 
-/// Springs of meshes that are stretched too far at the end of a tick break: they, the bends over
-/// them, and the faces and strands that they drew are gone. The energy that they held is booked on
-/// the line of their force.
+/// Removes springs of meshes that are stretched too far at the end of a tick, together with the
+/// bending springs over them and the faces and strands drawn between them. The energy that they
+/// stored is booked on the ledger line of their force.
 void break_springs(WorldState& state);
 
 }  // namespace tumble

@@ -13,7 +13,8 @@
 #include <variant>
 #include <vector>
 
-/// What definitions are made of, as bytes. Readers fail() on anything that is not valid.
+/// Building blocks of the byte form of definitions. Readers call fail() on anything that is not
+/// valid.
 namespace tumble::byte_parts {
 
 inline void write_varying(ByteWriter& out, const Varying& number) {
@@ -116,7 +117,8 @@ void read_array(ByteReader& in, std::vector<T>& values) {
   for (uint64_t i = 0; i < count && in.ok(); ++i) in.value(values.emplace_back());
 }
 
-/// The alternative with this number, with its defaults; nothing beyond the last.
+/// The alternative of a variant with this index, default-constructed; nullopt for an index out of
+/// range.
 template <class Variant, size_t I = 0>
 std::optional<Variant> alternative(size_t index) {
   if constexpr (I < std::variant_size_v<Variant>) {
@@ -126,7 +128,8 @@ std::optional<Variant> alternative(size_t index) {
   return std::nullopt;
 }
 
-/// A variant of structs that declare their parameters: its number, then those.
+/// A variant of structs that declare their parameters: the index of the alternative, then its
+/// parameters.
 template <class Variant>
 void write_variant(ByteWriter& out, const Variant& value) {
   out.value(uint8_t(value.index()));

@@ -162,7 +162,7 @@ struct Read {
   }
 };
 
-/// A default-constructed alternative of this index.
+/// The alternative of this index, default-constructed.
 template <size_t I = 0>
 Command make_alternative(size_t index) {
   if constexpr (I + 1 < std::variant_size_v<Command>) {

@@ -24,7 +24,8 @@ struct CreateBody {
 struct DestroyBody {
   BodyId id;
 };
-/// Another definition for a live body, pose and velocities included; joints and forces stay.
+/// Replaces the definition of a live body, pose and velocities included; its joints and forces
+/// stay.
 struct SetBody {
   BodyId id;
   BodyDef def;
@@ -59,11 +60,12 @@ struct CreateParticles {
 struct DestroyParticles {
   ParticleSystemId id;
 };
-/// Another definition for a live system: it begins anew, or goes on with the particles that it has.
+/// Replaces the definition of a live system: it begins anew, or with `keep` goes on with the
+/// particles that it has.
 struct SetParticles {
   ParticleSystemId id;
   ParticleSystemDef def;
-  bool keep = false;  ///< what there is stays where it is
+  bool keep = false;  ///< particles that exist stay where they are
 };
 struct SetSettings {
   WorldSettings settings;
@@ -86,7 +88,7 @@ struct CreateEmitter {
 struct DestroyEmitter {
   EmitterId id;
 };
-/// Another definition for a live emitter, which goes on from where it is.
+/// Replaces the definition of a live emitter, which goes on from its present state.
 struct SetEmitter {
   EmitterId id;
   EmitterDef def;
@@ -106,8 +108,8 @@ struct DestroySensor {
   SensorId id;
 };
 
-/// Every way in which the outside changes a world. Adding one: an alternative here, its bytes in
-/// command.cpp, its effect in apply_command.cpp.
+/// Every way in which a world is changed from outside. To add one: an alternative here, its bytes
+/// in command.cpp, its effect in apply_command.cpp.
 using Command =
     std::variant<CreateBody, DestroyBody, SetPose, SetVelocity, ApplyImpulse, CreateForce, SetForce,
                  DestroyForce, CreateParticles, DestroyParticles, SetSettings, CreateJoint,
@@ -120,15 +122,16 @@ void write_command(ByteWriter& out, const Command& command, ShapeStore& shapes);
 Result<Command> read_command(ByteReader& in, const ShapeStore& shapes);
 
 struct LoggedCommand {
-  uint64_t tick = 0;  ///< applied before the step from this tick
+  uint64_t tick = 0;  ///< the command was applied before the step that begins at this tick
   Command command;
 };
 
-/// All commands since a world's origin, in order. Played into a world of that origin they give the
-/// same bits again.
+/// All commands since a world's origin, in order. Applied to a world in the state of the origin
+/// they give the same bits again.
 class ReplayLog {
  public:
-  // All in command.cpp, for what copies and destroys commands of every kind is long to compile.
+  // All defined in command.cpp: copying and destroying commands of every kind takes long to
+  // compile.
   ReplayLog();
   ~ReplayLog();
   ReplayLog(const ReplayLog&);
@@ -138,7 +141,8 @@ class ReplayLog {
 
   void add(uint64_t tick, Command command);
   const std::vector<LoggedCommand>& entries() const { return entries_; }
-  /// Keeps the first `count` commands only (stepping back and doing something else).
+  /// Keeps the first `count` commands only, for a world that steps back and then takes another
+  /// course.
   void truncate(size_t count);
   /// Snapshot of the world before the first entry.
   const Bytes& origin() const { return origin_; }

@@ -15,8 +15,8 @@
 namespace tumble {
 namespace {
 
-/// The realtime stepper solves for impulses of a tick: its contacts tell forces as means over the
-/// tick, and know nothing of accelerations.
+/// The realtime stepper solves for impulses over a tick: its certificates have forces as means over
+/// the tick, and no accelerations.
 ContactCertificate realtime_certificate(const Contact& contact, int i,
                                         std::span<const RigidBody> bodies, double h) {
   const ContactPoint& point = contact.points[size_t(i)];
@@ -63,7 +63,7 @@ ContactCertificates realtime_certificates(const WorldState& s) {
   return out;
 }
 
-/// Slots of particles last no longer than the question.
+/// Replaces slots of particles, which are valid only during the query, by names.
 void name_particles(const WorldState& s, ContactCertificates& certificates) {
   const auto rename = [&](uint32_t& slot) {
     if (!s.blocks.holds(slot)) return;
@@ -74,8 +74,8 @@ void name_particles(const WorldState& s, ContactCertificates& certificates) {
   for (BodyBalance& b : certificates.bodies) rename(b.body);
 }
 
-/// What `ask` answers of the contacts and forces at the present moment, solved as the event stepper
-/// does. Slots of particles are known while it runs.
+/// Calls `ask` with the contacts and smooth forces at the present moment, to be solved as the event
+/// stepper does. During the call particles have slots.
 template <class Ask>
 auto ask_moment(WorldState& s, std::string_view solver, const Ask& ask)
     -> std::invoke_result_t<Ask, std::span<const EventContact>, const SmoothForces&,

@@ -25,7 +25,7 @@ double value_at(const std::shared_ptr<const TimeCourse>& course, double t) {
   return course ? course->at(t) : 0;
 }
 
-/// Where the body's frame is to be.
+/// The prescribed pose of the body's frame.
 Pose pose_at(const BodyDef& def, double t) {
   const BodyCourse& course = *def.course;
   Pose out = def.pose;
@@ -34,7 +34,7 @@ Pose pose_at(const BodyDef& def, double t) {
   return out;
 }
 
-/// The drives of a joint as they are in the tick from now.
+/// The drives of a joint as they are in the coming tick.
 JointDrives drives_now(const WorldState& s, const JointDef& def) {
   JointDrives out = def.drives;
   const double t0 = s.time(), t1 = s.time_after(), h = s.settings.tick.tick();
@@ -52,7 +52,7 @@ bool usable(const JointDrives& drives) {
   });
 }
 
-/// Whether a motor asks for something else than in the tick before.
+/// Whether a motor's target moves, or differs from that of the tick before.
 bool differs(const JointDrives& now, const JointDrives& before) {
   for (size_t k = 0; k < now.size(); ++k)
     if (now[k].motor.target_rate != 0 || now[k].motor.target != before[k].motor.target) return true;
@@ -77,7 +77,7 @@ void set_targets(WorldState& s, uint32_t slot, const JointDrives& drives) {
   joint.drives = std::make_shared<const JointDrives>(drives);
 }
 
-/// Where a body on its course is to be at the end of the tick, and how far it is to turn till then.
+/// Prescribed pose of a body at the end of the tick, and its rotation vector over the tick.
 struct Aim {
   Pose frame;
   Vec3 turn;  ///< [rad]
@@ -87,7 +87,8 @@ Aim aim_of(const WorldState& s, uint32_t slot) {
   const BodyDef& def = *s.body_defs[slot];
   const double from = value_at(def.course->angle, s.time());
   const double to = value_at(def.course->angle, s.time_after());
-  // What rounding left of the turns before is put right: twice the vector of a small rotation.
+  // Corrects the rounding error of earlier rotations: the rotation vector of a small rotation is
+  // twice the vector part of its quaternion.
   const Quat behind = pose_at(def, s.time()).q * s.bodies.bodies[slot].pose.q.conjugate();
   const Vec3 left = (behind.w() < 0 ? -2 : 2) * behind.vec();
   return {pose_at(def, s.time_after()), left + (to - from) * def.course->axis.normalized()};
@@ -136,9 +137,9 @@ bool finite(const Aim& a) {
   return a.frame.x.allFinite() && a.frame.q.coeffs().allFinite() && a.turn.allFinite();
 }
 
-/// The slope of a quantity from its differences before and after, as means over ticks give it:
-/// their mean where it is smooth, none where it has an extremum or jumps (van Leer 1977, J. Comput.
-/// Phys. 23, eq. 66). What is not finite is not there.
+/// Slope of a quantity from the differences of its means over consecutive ticks: their mean where
+/// the quantity is smooth, zero at an extremum or a jump (van Leer 1977, J. Comput. Phys. 23, eq.
+/// 66). A difference that is not finite is ignored.
 double limited_slope(double before, double after) {
   if (!std::isfinite(before)) before = after;
   if (!std::isfinite(after)) after = before;
@@ -148,13 +149,14 @@ double limited_slope(double before, double after) {
   return std::copysign(least, before);
 }
 
-/// What is left of straight courses is a few of the last digits, and none.
+/// Second difference; 0 where it is no more than the rounding of its terms, as for a straight
+/// course.
 double second_difference(double a, double b, double c) {
   const double out = c - 2 * b + a, size = std::fabs(a) + 2 * std::fabs(b) + std::fabs(c);
   return std::fabs(out) <= 8 * std::numeric_limits<double>::epsilon() * size ? 0 : out;
 }
 
-/// How the velocity changes in the tick that begins at a time, per second.
+/// Acceleration of the velocities in the tick that begins at time t.
 BodyVelocity slope_in_tick(const WorldState& s, uint32_t slot, double t) {
   const BodyDef& def = *s.body_defs[slot];
   const double h = s.settings.tick.tick();
@@ -174,14 +176,14 @@ BodyVelocity slope_in_tick(const WorldState& s, uint32_t slot, double t) {
   return out;
 }
 
-/// Velocities that lead there.
+/// Sets the velocities that bring the body to its aim.
 void set_velocity(WorldState& s, uint32_t slot, const Aim& aim) {
   RigidBody& b = s.bodies.bodies[slot];
   const double h = s.settings.tick.tick();
   const bool moved = is_active(b);
   b.v = (aim.frame.point(b.centre_body) - b.pose.x) / h;
   b.omega = aim.turn / h;
-  // What begins to move seeks contacts, and what ends does not any more.
+  // A body that begins to move looks for contacts, and one that stops does not.
   if (moved != is_active(b)) s.forget_bodies();
 }
 
@@ -268,7 +270,7 @@ void begin_course(WorldState& s, uint32_t slot) {
   const auto at = std::ranges::lower_bound(s.on_course, slot);
   if (at == s.on_course.end() || *at != slot) s.on_course.insert(at, slot);
   const Pose frame = pose_at(def, s.time());
-  if (!frame.x.allFinite() || !frame.q.coeffs().allFinite()) return;  // the next tick says so
+  if (!frame.x.allFinite() || !frame.q.coeffs().allFinite()) return;  // the next tick reports it
   RigidBody& b = s.bodies.bodies[slot];
   b.pose = {frame.point(b.centre_body), frame.q};
 }

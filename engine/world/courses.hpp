@@ -31,22 +31,24 @@ class CourseSupply {
 /// Only the targets, for questions about the moment; those without a finite value stay.
 void set_motor_targets(WorldState& state);
 
-/// How bodies on courses go through the tick from now, whose mean velocities they have: velocities
-/// change evenly, by the slopes that those of the ticks before and after let one see, and jump only
-/// where courses do. Those at rest are left out.
+/// How bodies on courses move through the coming tick, given that their velocities are its means:
+/// each velocity changes linearly in time, with a limited slope estimated from the mean velocities
+/// of this tick and its neighbours, so that it jumps only where the course does. Bodies at rest are
+/// left out.
 std::vector<CourseMotion> course_motions(const WorldState& state);
-/// Their velocities as they are, and how these change at the moment.
+/// The velocities of all bodies on courses as they are now, and their present accelerations.
 std::vector<CourseMotion> course_changes(const WorldState& state);
 
-/// Puts a body that has a course to where it is to be now, and remembers it.
+/// Places a body that has a course at its prescribed pose of now, and adds it to `on_course`.
 void begin_course(WorldState& state, uint32_t slot);
-/// From here on the body goes by its velocity.
+/// Removes the course of a body, which then moves by its velocity.
 void end_course(WorldState& state, uint32_t slot);
-/// Puts a force that has been made or changed to now, and remembers whether it follows courses.
+/// Sets the numbers of a force that was made or changed to their values of now, and records whether
+/// it follows courses.
 void begin_force(WorldState& state, uint32_t slot);
-/// Forces as they are now.
+/// Sets the numbers of all forces to their values of now.
 void reset_forces(WorldState& state);
-/// Finds again who has a course.
+/// Rebuilds the lists of bodies and forces on courses from the definitions.
 void find_courses(WorldState& state);
 bool has_courses(const WorldState& state);
 

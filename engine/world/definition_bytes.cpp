@@ -13,7 +13,7 @@ using namespace byte_parts;
 
 namespace {
 
-/// The sources of a body's shapes, each once, in the order of the shapes.
+/// The mesh sources of a body's shapes, each once, in the order of the shapes.
 std::vector<std::shared_ptr<const MeshSource>> sources_of(const BodyDef& def) {
   std::vector<std::shared_ptr<const MeshSource>> out;
   for (const BodyShapeDef& s : def.shapes)
@@ -35,7 +35,7 @@ void write_sources(ByteWriter& out, const BodyDef& def, ShapeStore& shapes) {
   }
   for (const BodyShapeDef& s : def.shapes) {
     const auto at = std::find(sources.begin(), sources.end(), s.source);
-    out.value(uint32_t(at - sources.begin()));  // one beyond the last: none
+    out.value(uint32_t(at - sources.begin()));  // index one beyond the last: none
     out.value(s.filled);
   }
 }
@@ -199,7 +199,7 @@ void write_spring_mesh(ByteWriter& out, const SpringMesh& mesh) {
   out.value(mesh.drawing.radius);
 }
 
-/// Calls read(element) so often as the bytes say, as long as there are any.
+/// Calls read(element) for as many elements as the bytes say, while the reader is good.
 template <class T, class Read>
 void read_list(ByteReader& in, std::vector<T>& list, const Read& read) {
   const auto count = in.get<uint64_t>();

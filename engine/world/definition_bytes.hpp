@@ -10,15 +10,15 @@
 
 namespace tumble {
 
-// Definitions as bytes, for commands and snapshots. Readers fail() on anything that is not valid;
-// geometry goes by content key through the store.
+// Definitions as bytes, for commands and snapshots. Readers call fail() on anything that is not
+// valid; geometry is written as a content key and looked up in the store.
 void write_body_def(ByteWriter& out, const BodyDef& def, ShapeStore& shapes);
 BodyDef read_body_def(ByteReader& in, const ShapeStore& shapes);
 void write_force_def(ByteWriter& out, const ForceDef& def);
 ForceDef read_force_def(ByteReader& in);
 void write_particles_def(ByteWriter& out, const ParticleSystemDef& def);
 ParticleSystemDef read_particles_def(ByteReader& in);
-/// Meshes as content keys.
+/// Meshes are written as content keys.
 void write_emitter_def(ByteWriter& out, const EmitterDef& def, ShapeStore& shapes);
 EmitterDef read_emitter_def(ByteReader& in, const ShapeStore& shapes);
 void write_sink_def(ByteWriter& out, const SinkDef& def);

@@ -17,7 +17,7 @@ double least_thickness(const RigidBody& b) {
   return least;
 }
 
-/// A body deep in a fixed one.
+/// A body that is deep inside a fixed one.
 struct Sunk {
   uint32_t body = no_body, in = no_body;
   double depth = 0;  ///< [m]
@@ -40,7 +40,7 @@ Sunk deepest(const WorldState& s) {
   return worst;
 }
 
-/// A moving kinematic body that touches, or is tied to, an island.
+/// A moving kinematic body that touches an island, or is connected to it by a joint.
 uint32_t mover_of(const WorldState& s, uint32_t island) {
   const std::vector<RigidBody>& bodies = s.bodies.bodies;
   uint32_t mover = no_body;

@@ -3,8 +3,9 @@
 
 namespace tumble {
 
-/// Of a tick under `realtime`: a kinematic body goes its way whatever holds against it, and may
-/// drag or press another one through a fixed body. Says once which, and by whom.
+/// For a tick under `realtime`: a kinematic body follows its course whatever resists it, and may
+/// drag or press another body through a fixed one. Warns of that once in the life of a world, with
+/// the names of all three.
 void warn_of_dragged_bodies(WorldState& state);
 
 }  // namespace tumble

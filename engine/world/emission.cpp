@@ -12,14 +12,15 @@
 namespace tumble {
 namespace {
 
-/// Of one system: what emitters make beyond this, events included, ends the run [-].
+/// Limit of the particles of one system, those emitted by events included; more end the run [-].
 constexpr size_t most_of_a_system = 20'000'000;
 
 LedgerEntry entry_of(const LedgerState& s, double sign) {
   return {sign * s.kinetic, sign * s.energy, sign * s.momentum, sign * s.angular_momentum};
 }
 
-/// How many rate and bursts have due by a time since the emitter began.
+/// Number of births due by rate and bursts at a time, since the time to which the emitter has
+/// emitted.
 double due_by(const Emitter& e, double time) {
   double sum = double(count_by_rate(*e.def, time) - count_by_rate(*e.def, e.emitted_to));
   for (const Burst& b : e.def->bursts)
@@ -27,7 +28,7 @@ double due_by(const Emitter& e, double time) {
   return sum;
 }
 
-/// Before memory is taken for them.
+/// The error, before memory for them is allocated.
 Error too_many(const WorldState& s, const Emitter& e) {
   return {ErrorCode::numeric,
           fmt::format("the emitter '{}' makes more than {} at once", e.def->name, most_of_a_system),
@@ -79,7 +80,8 @@ class ParticleEmission {
     }
   }
 
-  /// Where a particle was so long before the end of the tick, as if it had only fallen since.
+  /// State of a particle at a time before the end of the tick, as if it had been in free fall
+  /// since.
   struct Past {
     Vec3 x, v;
   };
@@ -99,7 +101,8 @@ class ParticleEmission {
     return false;
   }
 
-  /// What of a system has reached its end; calls of all that live and die.
+  /// Finds the particles of a system that have reached their end, and collects the births that
+  /// events of all its particles ask for.
   void end_lives(uint32_t k) {
     ParticleSystem& p = s_.particles[k];
     std::vector<uint8_t>& gone = scratch_.gone;
@@ -122,14 +125,14 @@ class ParticleEmission {
     p.remove(gone);
   }
 
-  /// The events of a system's particles.
+  /// Evaluates the events of a system's particles.
   void live(uint32_t k) {
     const ParticleSystem& p = s_.particles[k];
     find_hits(k);
     for (size_t i = 0; i < p.size(); ++i) {
       const Emitter* e = s_.emitters.find(p.emitter[i]);
       if (!e || e->def->events.empty()) continue;
-      const double over = scratch_.gone[i] == dies ? p.age[i] - p.life[i] : 0;  // since death
+      const double over = scratch_.gone[i] == dies ? p.age[i] - p.life[i] : 0;  // since its death
       along_life(*e, p.age[i] - h_, p.age[i], p.life[i],
                  [&](double ago) { return before(p, i, ago); });
       for (const SpawnRule& r : e->def->events) {
@@ -143,7 +146,7 @@ class ParticleEmission {
     }
   }
 
-  /// Which particles of a system met something in this tick.
+  /// Marks the particles of a system that collided in this tick.
   void find_hits(uint32_t k) {
     std::vector<uint8_t>& hit = scratch_.hit;
     hit.assign(s_.particles[k].size(), 0);
@@ -153,14 +156,14 @@ class ParticleEmission {
     if (!contacts) return;
     const ParticleSystemId id = s_.particle_ids.at(k);
     for (const ParticleContactFrame& c : *contacts) {
-      if (!(c.time > 0)) continue;  // they touched before
+      if (!(c.time > 0)) continue;  // they touched before the tick
       if (c.system == id) hit[c.particle] = 1;
       if (c.other == id) hit[c.other_particle] = 1;
     }
   }
 
-  /// Calls of the rules `life` from one age to another. `at` gives place and velocity so long
-  /// before the end of the tick.
+  /// Births by the rules `life`, from one age to another. `at` gives position and velocity at a
+  /// time before the end of the tick.
   template <class At>
   void along_life(const Emitter& e, double from, double to, double life, const At& at) {
     const double until = std::min(to, life);
@@ -264,7 +267,7 @@ class ParticleEmission {
 
   void answer_calls() {
     for (size_t n = 0; n < scratch_.calls.size() && !too_many_; ++n) {
-      const SpawnCall c = scratch_.calls[n];  // births may add more
+      const SpawnCall c = scratch_.calls[n];  // a copy: births may add more calls
       Emitter* e = s_.emitters.find(c.emitter);
       if (!e) continue;
       const EmissionPlace place{{c.x, e->def->pose.q}, c.x, c.v, Vec3::Zero()};
@@ -273,7 +276,7 @@ class ParticleEmission {
     scratch_.calls.clear();
   }
 
-  /// What rate and bursts of an emitter make in this tick.
+  /// Births by rate and bursts of an emitter in this tick.
   void emit_due(uint32_t slot) {
     Emitter& e = s_.emitters.list[slot];
     if (!e.def || e.def->particles.is_null() || too_many_) return;
@@ -287,7 +290,7 @@ class ParticleEmission {
     }
   }
 
-  /// Nothing when the carrier is gone.
+  /// Empty if the carrier no longer exists.
   std::optional<EmissionPlace> place_of(const Emitter& e, double ago) const {
     const EmitterDef& d = *e.def;
     if (d.carrier.is_null()) return EmissionPlace{d.pose, d.pose.x, Vec3::Zero(), Vec3::Zero()};
@@ -322,7 +325,7 @@ class ParticleEmission {
     ++e.alive;
   }
 
-  /// Size and colour as the age has them.
+  /// Sets sizes and colours by age.
   void age(ParticleSystem& p) const {
     for_chunks(s_.crew.get(), p.size(), [&](size_t, size_t first, size_t last) {
       for (size_t i = first; i < last; ++i) {
@@ -338,8 +341,8 @@ class ParticleEmission {
     });
   }
 
-  /// Masses as the age has them. What is lost leaves, what is won comes, with the particle's own
-  /// velocity.
+  /// Sets masses to those of the present age. Mass that is lost leaves, and mass that is gained
+  /// comes, with the velocity of its particle.
   void change_masses(size_t k) {
     ParticleSystem& p = s_.particles[k];
     for (size_t i = 0; i < p.size(); ++i) {
@@ -357,7 +360,7 @@ class ParticleEmission {
     }
   }
 
-  /// Before a removal: contacts that were found speak of the particles by their places.
+  /// Before a removal: updates the contacts found, which refer to particles by index.
   void renumber(uint32_t k) {
     scratch_.places.clear();
     uint32_t next = 0;
@@ -388,7 +391,7 @@ class ParticleEmission {
   const Emitter* too_many_ = nullptr;
 };
 
-/// Bodies that come and go between ticks, by the commands that an outside would use.
+/// Births and deaths of bodies between ticks, by the same commands that callers use.
 class BodyEmission {
  public:
   explicit BodyEmission(WorldState& state) : s_(state), end_(state.time_after()) {}
@@ -505,7 +508,7 @@ class BodyEmission {
     return EmissionPlace{b->body_frame() * d.pose, b->pose.x, b->v, b->omega};
   }
 
-  /// What has changed since the world was measured last.
+  /// Books what has changed since the world was last measured.
   void book(LedgerLine line) {
     if (!std::exchange(changed_, false)) return;
     did_ = true;

@@ -3,21 +3,24 @@
 
 namespace tumble {
 
-/// A live emitter of a definition that validate() accepts.
+/// A live emitter made from a definition that validate() accepts.
 Result<Emitter> make_emitter(const EmitterDef& def, double time);
-/// Room in the arrays of every system for all that its emitters may have alive at once.
+/// Reserves memory in the arrays of every system for all particles that its emitters may have alive
+/// at once.
 void reserve_for_emitters(WorldState& state);
 
-/// The stage at the end of a tick: particles that reached the end of their life or a sink are
-/// removed, what events, rates and bursts ask for is born, and sizes and colours follow the age.
-/// `start` is the beginning of the tick.
+/// The stage at the end of a tick: removes particles that reached the end of their life or a sink,
+/// creates the particles due by events, rates and bursts, and sets sizes and colours by age.
+/// `start` holds the state at the beginning of the tick.
 Status emit_particles(WorldState& state, const TickBackup& start);
 
-/// Before a tick: bodies that reached the end of their life or a sink are removed, those that are
-/// due in the tick are made. Does nothing when done again for the same tick. Tells whether it did.
+/// Before a tick: removes bodies that reached the end of their life or a sink, and creates those
+/// that are due in the tick. A second call for the same tick does nothing. Returns whether anything
+/// was done.
 Result<bool> emit_bodies(WorldState& state);
 
-/// Whether a tick may bring something into a world in which nothing moves.
+/// Whether a later tick may create or remove anything, so that a world in which nothing moves has
+/// to go on.
 bool emission_to_come(const WorldState& state);
 
 }  // namespace tumble

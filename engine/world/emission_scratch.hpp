@@ -6,11 +6,12 @@
 
 namespace tumble {
 
-/// Particles that an event of another one asks for.
+/// A request for births, made by an event of another particle.
 struct SpawnCall {
   EmitterId emitter;
-  Vec3 x = Vec3::Zero(), v = Vec3::Zero();  ///< of the one that asks, then
-  double ago = 0;                           ///< before the end of the tick [s]
+  /// Of the particle that asks, at the time of the event [m], [m/s].
+  Vec3 x = Vec3::Zero(), v = Vec3::Zero();
+  double ago = 0;  ///< time of the event, before the end of the tick [s]
   int count = 1;
 };
 
@@ -21,15 +22,15 @@ struct BodyHit {
   Vec3 x = Vec3::Zero();  ///< where [m]
 };
 
-/// Memory of the stage of emission, kept from tick to tick.
+/// Scratch memory of the emission stage, kept from tick to tick.
 struct EmissionScratch {
   std::vector<SpawnCall> calls;
-  std::vector<double> births;              ///< times of
-  std::vector<uint8_t> hit;                ///< by particle of a system, or by slot of bodies
-  std::vector<BodyHit> body_hits;          ///< by slot and other
-  std::vector<uint8_t> gone;               ///< likewise
-  std::vector<uint32_t> places;            ///< likewise: its index after removal
-  std::vector<size_t> counts;              ///< of particles, by system, before the births
+  std::vector<double> births;      ///< times of births within the tick [s]
+  std::vector<uint8_t> hit;        ///< by particle of a system, or by slot of bodies: met something
+  std::vector<BodyHit> body_hits;  ///< by slot and other
+  std::vector<uint8_t> gone;       ///< likewise: why it is removed, 0 if it stays
+  std::vector<uint32_t> places;    ///< likewise: its index after removal
+  std::vector<size_t> counts;      ///< of particles, by system, before the births
   std::vector<ParticleSystem> born, dead;  ///< by system
 };
 

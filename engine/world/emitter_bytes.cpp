@@ -24,7 +24,7 @@ void read_number(ByteReader& in, RandomNumber& n) {
   if (n.kind > RandomNumber::Kind::normal) in.fail();
 }
 
-/// Calls f for every number that is drawn.
+/// Calls f for every random quantity of a definition.
 template <class Def, class F>
 void for_numbers(Def& def, const F& f) {
   f(def.speed);

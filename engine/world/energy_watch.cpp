@@ -9,9 +9,9 @@
 namespace tumble {
 namespace {
 
-/// What came in from outside, as the books have it: edits, the user, emitters (and what left with
-/// what was removed), moving bodies, motors, forces that are no springs, and springs that change
-/// over time. All else that they know only takes energy, or moves it about.
+/// Energy supplied from outside according to the ledger: by edits, the user, emitters (less what
+/// was removed), moving bodies, motors, and forces other than springs. All other lines can only
+/// dissipate energy or convert it.
 double energy_given(const WorldState& s) {
   double sum = 0;
   for (const LedgerLine line :
@@ -25,7 +25,7 @@ double energy_given(const WorldState& s) {
   return sum;
 }
 
-/// The body or particle of most kinetic energy; what is not a number counts as most.
+/// The body or particle with the largest kinetic energy; NaN counts as largest.
 struct Fastest {
   double energy = -1;
   std::string name;
@@ -70,8 +70,8 @@ Status check_energy(const WorldState& s) {
   const double energy = stats.energies.total();
   if (!std::isfinite(energy) || !stats.momentum.allFinite() || !stats.angular_momentum.allFinite())
     return breakdown(s, "the energy or momentum of the world is not finite");
-  // That of springs is left out: what a tick does not resolve may be stretched far at its end, and
-  // is slack again after the next. What grows without bound shows in the motion.
+  // Without that of springs: a spring that the tick does not resolve may be stretched far at its
+  // end, and slack after the next one. Unbounded growth shows in the kinetic energy.
   const double moving = energy - stats.energies.springs;
   const double given = energy_given(s), excess = moving - given;
   if (!(excess > tolerances::energy_growth * std::fabs(given))) return {};

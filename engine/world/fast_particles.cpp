@@ -61,7 +61,7 @@ class FastExchange {
   Vec3& velocity(size_t i) { return system_of(i).v[owners_[i].index]; }
   RigidBody& body_of(uint32_t part) { return s_.bodies.bodies[parts_[part].body]; }
 
-  /// The motion over the tick, or at its end.
+  /// The body's motion over the tick, or its rest at the end of the tick.
   Motion motion_of(const Part& part, bool whole) const {
     const RigidBody& b = s_.bodies.bodies[part.body];
     Motion m = whole ? Motion::between(start_poses_[part.body], b.pose, 0, h_)
@@ -70,8 +70,8 @@ class FastExchange {
     return m;
   }
 
-  /// The particles go on from where they are; those that meet what they approach are sent on, and
-  /// on the `last` time stay there.
+  /// Moves the particles on from their present positions; those that collide bounce, or on the
+  /// `last` pass stay at the contact.
   Status bounce(bool whole_tick, bool last) {
     std::vector<Vec3> v;
     for (size_t i = 0; i < from_.size(); ++i) v.push_back((to_[i] - from_[i]) / h_);
@@ -87,13 +87,13 @@ class FastExchange {
     std::stable_sort(meetings.begin(), meetings.end(), [](const auto& a, const auto& b) {
       return std::tuple(a.particle, a.time) < std::tuple(b.particle, b.time);
     });
-    size_t bounced = from_.size();  // the particle that has had its impulse
+    size_t bounced = from_.size();  // the particle that has received its impulse
     for (const ParticleShapeMeeting& m : meetings) {
       if (m.particle == bounced || m.status == TimeOfContactStatus::max_iterations) continue;
       const size_t i = m.particle;
       const Motion motion = motion_of(parts_[m.shape], whole_tick);
       const RigidBody& b = body_of(m.shape);
-      // Met on the way, seen from where the body is in the end.
+      // The contact point, carried along to the pose of the body at the end of the tick.
       const Vec3 met = from_[i] + m.time * v[i];
       const Pose carried = b.pose * motion.carrier(m.time).inverse();
       if (!collide(i, m.shape, carried.point(met), carried.direction(-m.normal))) continue;
@@ -104,7 +104,7 @@ class FastExchange {
     return {};
   }
 
-  /// What is in a body in the end: stopped, and put on its surface.
+  /// Stops particles that are inside a body at the end, and moves them to its surface.
   Status push_out() {
     std::vector<StillShape> shapes;
     for (const Part& part : parts_) {
@@ -122,8 +122,8 @@ class FastExchange {
     return {};
   }
 
-  /// One impulse between particle i at x and a body, out of which `n` (unit) points; false where
-  /// they do not approach.
+  /// One impulse between particle i at x and a body with outward normal `n` (unit); returns false
+  /// if they do not approach.
   bool collide(size_t i, uint32_t part, const Vec3& x, const Vec3& n) {
     const ParticleSystem& system = system_of(i);
     const double mass = system.mass[owners_[i].index];
@@ -184,7 +184,7 @@ class FastExchange {
 
   WorldState& s_;
   double h_;
-  double resting_;  ///< slower approach does not bounce [m/s]
+  double resting_;  ///< no restitution below this approach speed [m/s]
   std::vector<Pose> start_poses_;
   ParticleContactFinder finder_;
   std::vector<Owner> owners_;  ///< of the particles below
@@ -194,7 +194,7 @@ class FastExchange {
   ContactEffects effects_;
 };
 
-/// Impulses by their cause; what places were changed by is a correction.
+/// Books impulses by their cause; the effect of changed positions is a correction.
 void book_exchange(WorldState& s, const LedgerState& before, const ContactEffects& effects) {
   measure(s);
   const LedgerState after = measured(s);

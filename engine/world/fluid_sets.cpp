@@ -29,7 +29,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }  // namespace
 
 std::vector<std::vector<uint32_t>> fluid_sets(const WorldState& s) {
-  // Fluids of a set are told apart by a byte.
+  // The fluid of a particle is stored in a byte.
   constexpr size_t most = 256;
   std::vector<std::vector<uint32_t>> sets;
   for (uint32_t k = 0; k < s.particles.size(); ++k) {

@@ -34,7 +34,7 @@ class FluidStage {
  private:
   ForceShare& share() { return s_.workspace.books.shares[s_.forces.size()]; }
 
-  /// What contacts hold in place is not predicted to fall.
+  /// Marks the bodies that contacts hold, whose fall the fluid solver must not predict.
   void find_pressed() {
     work_.pressed.assign(s_.bodies.bodies.size(), 0);
     s_.contacts.for_each([this](const Contact& c) {
@@ -81,7 +81,7 @@ class FluidStage {
     const bool any = std::ranges::any_of(set, [this](uint32_t k) { return watched(k); });
     return any ? &s_.watch->pressures : nullptr;
   }
-  /// Of the fluid that is looked at, out of those that were solved together.
+  /// Keeps the part of the trace that belongs to the watched fluid.
   void keep_trace_of(std::span<const uint32_t> set) const {
     for (size_t n = 0; n < set.size(); ++n) {
       if (!watched(set[n])) continue;
@@ -93,7 +93,8 @@ class FluidStage {
     }
   }
 
-  /// Where the fluids may come to in the tick, for a start; it is a few kernels wider than needed.
+  /// Bounds of where the fluids may move in the tick, for a first selection; a few kernel radii
+  /// wider than needed.
   Aabb reach() const {
     const FluidWorkspace::Together& all = work_.together;
     Aabb box;
@@ -115,7 +116,7 @@ class FluidStage {
     for (uint32_t slot = 0; slot < s_.bodies.ids.capacity(); ++slot) {
       if (!s_.bodies.ids.alive(slot)) continue;
       const RigidBody& b = s_.bodies.bodies[slot];
-      // A half-space reaches without end, and does not turn.
+      // A half-space is unbounded, and does not rotate.
       const double turn = b.omega.isZero(0) ? 0 : b.omega.norm() * b.bounding_radius;
       const double way = 2 * h_ * (b.v.norm() + turn);
       bool near = false;
@@ -154,7 +155,8 @@ class FluidStage {
             {work_.slots[k], pushes[k].impulse / h_, pushes[k].angular_impulse / h_});
   }
 
-  /// The sums of several fluids; what sleeps and is pushed hardly does not feel it.
+  /// Sums the forces of several fluids on a body; a sleeping body that is pushed too little to wake
+  /// does not receive them.
   void push_bodies() {
     std::ranges::stable_sort(work_.on_bodies, {}, &FluidWorkspace::OnBody::slot);
     const std::vector<FluidWorkspace::OnBody> given = work_.on_bodies;
@@ -183,16 +185,18 @@ class FluidStage {
     }
   }
 
-  /// Impulses of a force that is constant over the tick, and its work along the particle's way.
+  /// Impulse of a force that is constant over the tick, and its work along the particle's
+  /// displacement.
   LedgerEntry entry(size_t i, const Vec3& force) const {
     const FluidWorkspace::Together& all = work_.together;
     const Vec3 impulse = h_ * force, way = all.x[i] - all.x_before[i];
     return {force.dot(way), 0, impulse, (all.x_before[i] + 0.5 * way).cross(impulse)};
   }
 
-  /// Forces do the work that the ways say, which their potentials lose. What velocities gained by
-  /// them beyond it is a correction: particles move by the velocities of the ends of sub-steps, and
-  /// shifts of positions have no velocity. Pressure has the momentum that is left over.
+  /// The work of forces is that along the displacements, which is what their potentials lose. Work
+  /// on the velocities beyond this is a correction: particles move by the velocities at the ends of
+  /// sub-steps, and position shifts have no velocity. The momentum that is left over belongs to
+  /// pressure.
   void book(std::span<const uint32_t> set, const FluidReport& report) {
     const FluidWorkspace::Together& all = work_.together;
     LedgerEntry gained, weight;

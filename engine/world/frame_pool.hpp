@@ -4,7 +4,8 @@
 
 namespace tumble {
 
-/// What frames are made of. A steady world makes them of those that nobody looks at any more.
+/// Memory of frames and of their parts, for reuse: a steady world makes its frames of those that
+/// nobody holds any more.
 struct FramePool {
   Recycler<Frame> frames;
   Recycler<Frame::BodyChunk> chunks;

@@ -3,7 +3,7 @@
 namespace tumble {
 namespace {
 
-/// Energy and momenta of grains and of the bodies that they pushed.
+/// Energy and momenta of grains and of the bodies that they push.
 struct Sums {
   double energy = 0;
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
@@ -29,7 +29,7 @@ bool alive_grains(const WorldState& s, uint32_t k) {
   return s.particle_ids.alive(k) && s.particles[k].grains.has_value();
 }
 
-/// What a constant force did to a grain while it moved; what sleeps is held.
+/// Entry of a constant force on a grain along its displacement; none for a sleeping grain.
 LedgerEntry push_on(const ParticleSystem& from, const ParticleSystem& to, size_t i,
                     const Vec3& force, double h) {
   if (from.rest[i].asleep() && to.rest[i].asleep()) return {};
@@ -68,7 +68,7 @@ class GrainBooks {
       rest_.add(b, p.v, p.omega, -1);
     }
   }
-  /// What bodies were given before their tick, and have had taken back since.
+  /// Books the support that bodies received before their tick, which was taken back afterwards.
   void carried() {
     LedgerEntry sum;
     for (const GrainLoad& load : s_.workspace.grains.carried()) {
@@ -123,7 +123,7 @@ class GrainBooks {
   WorldState& s_;
   const TickBackup& start_;
   double h_ = s_.settings.tick.tick();
-  Sums rest_;  ///< the change that nothing explains yet
+  Sums rest_;  ///< the change that no line explains yet
 };
 
 }  // namespace
@@ -147,7 +147,7 @@ Status step_grains(WorldState& s, const TickBackup& start) {
                        s.settings.realtime,
                        s.crew.get()};
   if (Status done = s.workspace.grains.step(tick, s.grain_touches, report); !done) return done;
-  // Each has one point; those of grains that sleep are among them.
+  // Each has one point; contacts of sleeping grains are counted too.
   s.stats.contacts += s.grain_touches.all().size();
   s.stats.contact_points += s.grain_touches.all().size();
   if (!report.moved) return {};

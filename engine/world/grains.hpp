@@ -5,11 +5,12 @@ namespace tumble {
 
 struct WorldState;
 
-/// Before the bodies have their tick: grains that carried them go on (GrainStage::carry).
+/// Before the tick of the bodies: bodies that rest on grains get the support that these gave them
+/// in the last tick (GrainStage::carry).
 void carry_on_grains(WorldState& state);
 
-/// Moves the grains of a tick whose bodies have moved (`dynamics/grains`), and books what that did:
-/// contacts under restitution and friction, what no cause explains under projection.
+/// Moves the grains of a tick whose bodies have moved already (`dynamics/grains`), and books their
+/// work: contacts under `restitution` and `friction`, the unexplained rest under `projection`.
 Status step_grains(WorldState& state, const TickBackup& start);
 
 }  // namespace tumble

@@ -12,7 +12,7 @@ SmoothDrive smooth_force(const CoordinateDrive& d, double x, double v, double t)
   if (!l.hard() && x < l.lower) {
     const double pull = l.stiffness * (l.lower - x);
     out.elastic += pull;
-    out.damping += std::max(-l.damping * v, -pull);  // a stop does not pull
+    out.damping += std::max(-l.damping * v, -pull);  // a limit only pushes
   }
   if (!l.hard() && x > l.upper) {
     const double pull = l.stiffness * (l.upper - x);

@@ -3,25 +3,25 @@
 
 namespace tumble {
 
-/// The forces along a coordinate that its value and rate give at any moment: springs, dampers,
-/// limits that give way, motors of force and of position.
+/// The forces along a coordinate of a joint that are functions of its value and rate at the moment:
+/// springs, dampers, compliant limits, motors of force and of position.
 struct SmoothDrive {
   double elastic = 0, damping = 0, motor = 0;  ///< [N] or [N m]
   double total() const { return elastic + damping + motor; }
 };
-/// `t` seconds after the tick began.
+/// At `t` seconds after the start of the tick.
 SmoothDrive smooth_force(const CoordinateDrive& drive, double value, double rate, double t);
 
-/// A driven coordinate now.
+/// A driven coordinate at a moment: its row, its rate, and its force.
 struct ActingDrive {
   JointRow row;
   double rate = 0;
   SmoothDrive force;
 };
-/// `t` seconds after the joint's value was known.
+/// At `t` seconds after the moment at which the joint's stored value was current.
 ActingDrive acting_drive(const Joint& joint, size_t coordinate, const JointSides& sides, double t);
 
-/// Calls f(coordinate, ActingDrive) for all that acts along a joint's coordinates.
+/// Calls f(coordinate, ActingDrive) for every driven coordinate of a joint.
 template <class F>
 void for_drives(const Joint& joint, std::span<const RigidBody> bodies, double t, const F& f) {
   if (!joint.drives) return;
@@ -30,7 +30,7 @@ void for_drives(const Joint& joint, std::span<const RigidBody> bodies, double t,
     if (joint.driven(k)) f(k, acting_drive(joint, k, sides, t));
 }
 
-/// Adds a force along a row to the sums of the joint's bodies.
+/// Adds a force along a row to the force sums of the joint's bodies.
 void push_bodies(const JointRow& row, double force, const Joint& joint,
                  std::span<RigidBody> bodies);
 

@@ -16,7 +16,7 @@
 namespace tumble {
 namespace {
 
-/// Bodies that joints and contacts tie to each other, some joint among them.
+/// Bodies connected by joints and contacts, with at least one joint.
 struct JointedGroup {
   std::vector<uint32_t> slots, joints, couplings;
   std::vector<EventContact> contacts;
@@ -61,8 +61,8 @@ std::vector<JointedGroup> jointed_groups(std::span<const RigidBody> bodies,
   return out;
 }
 
-/// What the contacts of the realtime stepper did to the bodies over the last tick, as forces and
-/// torques that lasted for it, by slot.
+/// Mean forces and torques over the last tick of the realtime stepper's contacts on the bodies, by
+/// slot.
 std::vector<JointWrench> realtime_pushes(const WorldState& s) {
   const std::span<const RigidBody> bodies = s.bodies.bodies;
   std::vector<JointWrench> out(bodies.size());
@@ -86,15 +86,15 @@ std::vector<JointWrench> realtime_pushes(const WorldState& s) {
   return out;
 }
 
-/// Force along a coordinate: that of the moment under the event stepper; the last one that acted
-/// under realtime, which has no other.
+/// Force along a coordinate: under the event stepper that of the moment; under realtime the last
+/// one that acted, since it has no other.
 double drive_force(const WorldState& s, const Joint& joint, size_t k, const ActingDrive& now) {
   if (s.settings.stepper == "event") return now.force.total();
   const size_t row = row_count(joint.kind) + k;
   return joint.moving_force[row] + joint.relaxing_force[row];
 }
 
-/// What acted along the coordinates of joints under realtime.
+/// Adds the forces that acted along coordinates of joints under realtime.
 void add_drive_pushes(const WorldState& s, std::vector<JointWrench>& out) {
   for (uint32_t i = 0; i < s.joints.ids.capacity(); ++i) {
     if (!s.joints.ids.alive(i)) continue;
@@ -111,7 +111,7 @@ void add_drive_pushes(const WorldState& s, std::vector<JointWrench>& out) {
   }
 }
 
-/// The same as a wrench on B.
+/// The same force as a wrench on B.
 void add_drive_wrench(const WorldState& s, const Joint& joint, const JointSides& sides,
                       JointWrench& out) {
   for_drives(joint, s.bodies.bodies, 0, [&](size_t k, const ActingDrive& d) {
@@ -122,7 +122,7 @@ void add_drive_wrench(const WorldState& s, const Joint& joint, const JointSides&
   });
 }
 
-/// Solves for the forces of a group's joints, and tells them by slot of the joints.
+/// Solves for the forces of a group's joints, and stores them by joint slot.
 class ReactionSolver {
  public:
   ReactionSolver(WorldState& state, const SmoothForces& forces, const ContactForceMethod& method)
@@ -168,7 +168,7 @@ class ReactionSolver {
   }
 
  private:
-  /// What a coupling's force does in both of its joints.
+  /// Adds the wrenches of a coupling's force on both of its joints.
   void add_coupling(const JointCoupling& c, double force, std::vector<JointWrench>& out) const {
     add_coordinate_wrench(s_.joints.joints[c.a], c.x, force, s_.bodies.bodies, out[c.a]);
     add_coordinate_wrench(s_.joints.joints[c.b], c.y, -c.ratio * force, s_.bodies.bodies, out[c.b]);
@@ -181,7 +181,7 @@ class ReactionSolver {
   std::vector<uint32_t> block_of_;
 };
 
-/// By slot of the joints; the bodies end with blocks of particles.
+/// Wrenches by joint slot; the blocks of particles are appended to the bodies.
 Result<std::vector<JointWrench>> solve_reactions(WorldState& s) {
   auto method =
       contact_force_method(s.settings.event.contact_solver, s.settings.event.friction_cone);

@@ -13,7 +13,7 @@ void write_frame(ByteWriter& out, const Pose& frame) {
   out.value(frame.q.coeffs());
 }
 
-/// Calls f for every number of a drive.
+/// Calls f for every numeric parameter of a drive.
 template <class Drive, class F>
 void for_drive_numbers(Drive& d, const F& f) {
   for (auto* x : {&d.limits.lower, &d.limits.upper, &d.limits.stiffness, &d.limits.damping,
@@ -48,12 +48,12 @@ void read_drive(ByteReader& in, CoordinateDrive& drive) {
   in.value(couple.offset);
 }
 
-/// What state a joint may go on with that is defined anew.
+/// Whether a joint that is redefined may keep its state.
 bool same_ends(const Joint& a, const Joint& b) {
   return a.kind == b.kind && a.a == b.a && a.b == b.b;
 }
 
-/// Puts a number into an ascending list, or takes it out.
+/// Inserts a number into an ascending list, or removes it.
 void note(uint32_t slot, bool in, std::vector<uint32_t>& list) {
   const auto at = std::ranges::lower_bound(list, slot);
   const bool is = at != list.end() && *at == slot;
@@ -134,8 +134,8 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
   couple();
 }
 
-/// Finds the couplings anew. Those that were there keep their forces; one whose other joint is
-/// gone, or has no such coordinate (any more), is none.
+/// Rebuilds the couplings. Those that existed keep their forces; one whose other joint does not
+/// exist, or has no such coordinate, is left out.
 void JointStore::couple() {
   if (followers_.empty() && couplings.empty()) return;
   const std::vector<JointCoupling> before = std::exchange(couplings, {});

@@ -9,47 +9,49 @@
 
 namespace tumble {
 
-/// Of these of the joints, by slot.
+/// Energies of the joints in the slots `which`.
 JointEnergies energy_of_joints(std::span<const Joint> joints, std::span<const uint32_t> which,
                                std::span<const RigidBody> bodies);
 
 void write_joint_def(ByteWriter& out, const JointDef& def);
 JointDef read_joint_def(ByteReader& in);
 
-/// The joints of a world, by slot. What they exclude and whom they tie follows from them.
+/// The joints of a world, by slot; the pairs that they exclude and the links between bodies follow
+/// from them.
 class JointStore {
  public:
   HandlePool<JointTag> ids;
-  std::vector<Joint> joints;   ///< what a step reads and writes; dead slots mean nothing
+  std::vector<Joint> joints;   ///< what a step reads and writes; dead slots are undefined
   std::vector<JointDef> defs;  ///< likewise by slot
-  /// What couples the coordinates of live joints, in the order of their slots and coordinates.
+  /// Couplings between coordinates of live joints, in the order of slots and coordinates.
   std::vector<JointCoupling> couplings;
-  /// Slots of live joints that need a look in every tick, ascending: something acts along them,
-  /// full turns are counted, or they can break.
+  /// Slots of live joints that every tick has to visit, ascending: a drive acts on them, full turns
+  /// are counted, or they can break.
   std::vector<uint32_t> watched;
-  /// Likewise those of which a motor's target follows a course.
+  /// Slots of live joints of which a motor's target follows a course, ascending.
   std::vector<uint32_t> timed;
 
   JointsAndCouplings all() const { return {joints, couplings}; }
-  /// Force of its couplings along a coordinate, in the mean of the last tick or sub-step.
+  /// Mean force of its couplings along a coordinate over the last tick or sub-step [N], [N m].
   double coupling_force(uint32_t joint, size_t coordinate) const;
   const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
-  /// Fills the slot of a live id. Where a joint of the same kind between the same bodies was there,
-  /// the new one goes on with its forces and turns: motors get new targets so.
+  /// Fills the slot of a live id. If the slot held a joint of the same kind between the same
+  /// bodies, the new one keeps its forces and full turns: this is how motors get new targets.
   void put(JointId id, const JointDef& def, const BodySet& bodies);
   void release(JointId id);
-  /// Of all joints, at the bodies' present state.
+  /// Energies of all joints at the present state of the bodies.
   JointEnergies energies(std::span<const RigidBody> bodies) const;
-  /// Joints that end at a body, in the order of their slots.
+  /// Joints attached to a body, in the order of their slots.
   std::vector<JointId> at_body(BodyId body) const;
-  /// One link for every joint, in the order of their slots; then, of no joint, those that keep the
-  /// bodies of both joints of a coupling together.
+  /// Adds a link between the two bodies of every joint, in the order of slots; then links without a
+  /// joint, which join the bodies of the two joints of each coupling.
   void add_links(std::vector<BodyLink>& links) const;
-  /// Bodies that do not collide since a joint ties them, or they are of one group.
+  /// Adds the pairs that do not collide because a joint excludes them or because they are of one
+  /// group.
   void find_apart(std::span<const RigidBody> bodies, PairFilter& out) const;
 
   void save(ByteWriter& out) const;
-  /// Fails on bytes that are no joints between the given bodies.
+  /// Fails on bytes that are not joints between bodies of this set.
   void load(ByteReader& in, const BodySet& bodies);
 
  private:
@@ -60,8 +62,9 @@ class JointStore {
   std::vector<uint32_t> followers_;  ///< slots of live joints with a CoordinateCouple, ascending
 };
 
-/// Joint ids given out, those of waiting commands included, with the bodies that they tie: whoever
-/// destroys a body must know which joints go with it before any command is applied.
+/// Joint ids given out, those of queued commands included, with the bodies of each joint: when a
+/// command destroys a body, the ids of its joints must be released at once, before any command is
+/// applied.
 class ReservedJoints {
  public:
   bool contains(JointId id) const { return ids_.contains(id); }
@@ -69,7 +72,8 @@ class ReservedJoints {
   JointId allocate(const JointDef& def);
   void change(JointId id, const JointDef& def);
   bool release(JointId id) { return ids_.release(id); }
-  /// In the order of their slots, as JointStore::at_body gives them later.
+  /// Releases the joints of a body in the order of their slots, as JointStore::at_body will list
+  /// them.
   void release_at(BodyId body);
 
   void save(ByteWriter& out) const;

@@ -30,7 +30,7 @@ void KeyframeRing::keep(const World& world) {
   if (bytes_ > budget_) thin();
 }
 
-/// Drops every second keyframe of the older half until the budget holds; the first one stays.
+/// Drops every second keyframe of the older half until the budget is met; the first one stays.
 void KeyframeRing::thin() {
   while (bytes_ > budget_ && frames_.size() > 2) {
     std::deque<Keyframe> kept;
@@ -64,8 +64,8 @@ Status KeyframeRing::seek(World& world, uint64_t tick, std::shared_ptr<const Fra
   const std::vector<LoggedCommand> log = world.replay_log().entries();
   if (Status s = world.rewind(*from->snapshot); !s) return s;
   while (frames_.size() > 1 && frames_.back().tick > tick) drop_last();
-  // Commands logged at the keyframe's own tick were applied before it was taken or are still to
-  // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
+  // Commands logged at the keyframe's own tick were either applied before it was taken, or are in
+  // the snapshot's queue; later ones are submitted again when their tick comes.
   size_t next = world.replay_log().entries().size();
   const auto submit_due = [&]() -> Status {
     while (next < log.size() && log[next].tick <= world.tick())
@@ -74,11 +74,11 @@ Status KeyframeRing::seek(World& world, uint64_t tick, std::shared_ptr<const Fra
   };
   while (world.tick() < tick) {
     if (Status s = submit_due(); !s) return s;
-    // Frames are made when they are asked for: only the last one is.
+    // Frames are made on request, so only this one is.
     if (before && world.tick() + 1 == tick) *before = world.frame();
     if (auto report = world.step(); !report) return report.error();
   }
-  // What was changed at that tick itself belongs to the world as it was left there.
+  // Changes made at that tick itself are part of the world as it was left there.
   if (Status s = submit_due(); !s) return s;
   return world.apply_commands();
 }

@@ -12,29 +12,29 @@ namespace tumble {
 struct Frame;
 class World;
 
-/// Snapshots of the past within a memory budget, behind "step back" and "restart". The first
-/// keyframe is never dropped; the others thin out with age. A copy shares the snapshots: it is the
-/// past as it is known now, to be taken up again when the world goes back to this moment.
+/// Snapshots of the past within a memory budget, for stepping back and restarting. The first
+/// keyframe is never dropped; the others thin out with age. A copy shares the snapshots, and can
+/// replace the ring later when the world returns to the moment of the copy.
 class KeyframeRing {
  public:
   explicit KeyframeRing(size_t budget_bytes = size_t{256} << 20, uint64_t interval_ticks = 30)
       : budget_(budget_bytes), interval_(interval_ticks) {}
 
-  /// Forgets everything and keeps the world as it is now as the first keyframe.
+  /// Drops all keyframes and keeps the present state as the first.
   void reset(const World& world);
-  /// Call after each step: keeps a keyframe when one is due.
+  /// To be called after each step: keeps a keyframe when one is due.
   void after_step(const World& world);
-  /// Keeps the world as it is now, due or not: going back to this tick finds it with the changes
-  /// that were made at this tick.
+  /// Keeps a keyframe of the present state, due or not, so that going back to this tick restores
+  /// the changes made at it.
   void keep(const World& world);
-  /// Brings the world to `tick` (not later than now) as it was left there: the nearest keyframe
-  /// before it, then steps with the logged commands, and those of that tick itself. `before` gets
-  /// the frame of the tick before it, or null where that is not on the way.
+  /// Brings the world to `tick` (not later than now) as it was left there: loads the last keyframe
+  /// up to that tick, and repeats the steps and logged commands from there, those of that tick
+  /// included. `before` gets the frame of the tick before it, or null if no step was repeated.
   Status seek(World& world, uint64_t tick, std::shared_ptr<const Frame>* before = nullptr);
-  /// Brings the world to the first keyframe, without what was changed at its tick afterwards.
+  /// Brings the world to the first keyframe, without later changes at its tick.
   Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }
-  /// Of the newest keyframe.
+  /// Tick of the newest keyframe.
   uint64_t last_tick() const { return frames_.empty() ? 0 : frames_.back().tick; }
   size_t bytes() const { return bytes_; }
   size_t count() const { return frames_.size(); }

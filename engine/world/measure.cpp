@@ -26,7 +26,8 @@ void BodySums::add(const BodySums& other) {
 
 namespace {
 
-/// Bodies whose sums are kept together: where all of them rest the sums stay as they are.
+/// Number of bodies whose sums are stored together: the sums of a block are kept while all of its
+/// bodies rest.
 constexpr size_t block_size = 64;
 
 BodySums sum_block(const WorldState& s, size_t block) {
@@ -37,7 +38,7 @@ BodySums sum_block(const WorldState& s, size_t block) {
   return sum;
 }
 
-/// Which blocks are to be summed anew: all, unless it is known that only some have active bodies.
+/// Finds the blocks to be summed again: all, unless the roster tells which bodies are active.
 void find_stale_sums(WorldState& s, size_t blocks) {
   std::vector<uint32_t>& stale = s.sums.stale;
   stale.clear();
@@ -48,7 +49,7 @@ void find_stale_sums(WorldState& s, size_t blocks) {
   }
   const Roster& r = s.roster;
   for (const std::span<const uint32_t> slots : {r.active(), r.settled(), r.touched()})
-    for (const uint32_t slot : slots) {  // mostly ascending
+    for (const uint32_t slot : slots) {  // nearly in ascending order
       const auto block = uint32_t(slot / block_size);
       if (stale.empty() || stale.back() != block) stale.push_back(block);
     }
@@ -56,7 +57,7 @@ void find_stale_sums(WorldState& s, size_t blocks) {
   stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
 }
 
-/// Of all bodies.
+/// Sums over all bodies.
 BodySums sum_bodies(WorldState& s) {
   const size_t blocks = (s.bodies.bodies.size() + block_size - 1) / block_size;
   find_stale_sums(s, blocks);

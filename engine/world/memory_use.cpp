@@ -14,7 +14,7 @@ void add_definitions(const WorldState& s, MemoryUse& use) {
   use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.joints.couplings, s.workspace.links);
 }
 
-/// Of the last frame.
+/// Adds the memory of the last frame.
 void add_frames(const Frame& f, MemoryUse& use) {
   use.bodies += heap_bytes(f.chunks) + f.chunks.size() * sizeof(Frame::BodyChunk);
   use.bodies += heap_bytes(*f.infos);

@@ -1,4 +1,4 @@
-// Which bodies overlap now, whatever the stepper.
+// World::overlaps: the pairs of bodies that overlap now, for any stepper.
 #include "engine/world/state.hpp"
 #include "engine/world/world.hpp"
 
@@ -17,7 +17,8 @@ std::vector<Overlap> World::overlaps(double deeper) const {
   ProxySet proxies;
   update_proxies(bodies, Vec3::Zero(), 0, 0, proxies);
   std::vector<ProxyPair> pairs;
-  all_broad_phases().back().make()->find_pairs(proxies.proxies, pairs);  // any finds the same
+  all_broad_phases().back().make()->find_pairs(proxies.proxies,
+                                               pairs);  // all find the same
   PairFilter apart;
   s.joints.find_apart(s.bodies.bodies, apart);
   apart.apply(proxies, pairs);
@@ -31,7 +32,7 @@ std::vector<Overlap> World::overlaps(double deeper) const {
     for (int i = 0; i < c.count; ++i) depth = std::max(depth, -c.points[size_t(i)].gap);
     if (!(depth > deeper)) continue;
     const BodyId a = s.bodies.ids.at(c.key.body_a), b = s.bodies.ids.at(c.key.body_b);
-    // Contacts of a pair of bodies follow each other.
+    // The contacts of a pair of bodies are consecutive.
     if (out.empty() || out.back().a != a || out.back().b != b) out.push_back({a, b, 0});
     out.back().depth = std::max(out.back().depth, depth);
   }

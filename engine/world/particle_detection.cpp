@@ -8,8 +8,7 @@
 namespace tumble {
 namespace {
 
-/// Goes through two sorted lists at once: calls f(touch or null, meet or null) for every key of
-/// either.
+/// Merges two sorted lists: calls f(touch or null, meet or null) for every key that is in either.
 template <class Touch, class Meet, class Key, class F>
 void merge_contacts(const std::vector<Touch>& touches, const std::vector<Meet>& meets,
                     const Key& key, const F& f) {
@@ -25,7 +24,8 @@ void merge_contacts(const std::vector<Touch>& touches, const std::vector<Meet>& 
   }
 }
 
-/// What both kinds of contact have in common: it is where they touch now, else where they met.
+/// The common part of both kinds of contact: at the present touch if there is one, else at the
+/// first meeting.
 template <class Touch, class Meet>
 ParticleContactFrame contact_of(const Touch* touch, const Meet* meet) {
   ParticleContactFrame c;
@@ -124,7 +124,7 @@ Status ParticleDetection::find(const BodySet& bodies, std::span<const Pose> star
   auto found = std::make_shared<std::vector<ParticleContactFrame>>();
   if (Status s = find_bodies(h, *found); !s) return s;
   if (Status s = find_particles(h, *found); !s) return s;
-  // Each half is sorted by particle, then by what it touches.
+  // Each half is sorted by particle, then by what the particle touches.
   std::stable_sort(found->begin(), found->end(),
                    [](const ParticleContactFrame& a, const ParticleContactFrame& b) {
                      return std::tuple(a.system, a.particle) < std::tuple(b.system, b.particle);

@@ -10,10 +10,10 @@
 
 namespace tumble {
 
-/// Finds what the particles of detecting systems touched during a tick (Coutinho 2013 §3.4): each
-/// other, and all bodies. Particles and bodies move straight and evenly from where the tick found
-/// them to where it left them, bodies turning the shortest way. Keeps nothing from tick to tick but
-/// memory.
+/// Finds what the particles of systems with `detect` touched during a tick (Coutinho 2013 §3.4):
+/// each other, and all bodies. Particles and bodies move uniformly from their poses at the start of
+/// the tick to those at its end; rotations take the shortest way. Between ticks only scratch memory
+/// is kept.
 class ParticleDetection {
  public:
   static bool asked_for(std::span<const ParticleSystem> systems);
@@ -23,12 +23,12 @@ class ParticleDetection {
   Status find(const BodySet& bodies, std::span<const Pose> start_poses,
               const HandlePool<ParticleSystemTag>& ids, std::span<const ParticleSystem> systems,
               std::span<const ParticleSystem> start, double h, Crew& crew);
-  /// Particles of a system have other places now, by their old ones; contacts of those that are
-  /// `gone` are forgotten.
+  /// Updates contacts after a removal: `places` has the new index of each particle of the system by
+  /// its old one; contacts of those that are `gone` are dropped.
   static constexpr uint32_t gone = ~uint32_t{0};
   void renumber(ParticleSystemId system, std::span<const uint32_t> places);
   void clear() { contacts_.reset(); }
-  /// Of the last find(), as frames have them; null after clear().
+  /// Contacts of the last find(), in the form of frames; null after clear().
   const std::shared_ptr<const std::vector<ParticleContactFrame>>& contacts() const {
     return contacts_;
   }

@@ -7,17 +7,17 @@ namespace tumble {
 
 struct ParticleSystem;
 
-/// What can be said of all particles of a system at once, for plots and assertions; zeros where
-/// there are none.
+/// Sums and means over all particles of a system, for plots and assertions; zeros where there are
+/// none.
 struct ParticleMeasures {
   size_t count = 0;
   Vec3 centre = Vec3::Zero();                    ///< of mass [m]
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< corners of the box about all centres [m]
-  double speed = 0;                              ///< root of the mean square [m/s]
+  double speed = 0;                              ///< root mean square [m/s]
   double max_speed = 0;                          ///< [m/s]
-  /// Two thirds of the kinetic energy of a particle in the mean, relative to the motion of all:
-  /// Boltzmann's constant times the temperature [J]; in reduced units of a Lennard-Jones potential
-  /// the temperature.
+  /// Two thirds of the mean kinetic energy of a particle relative to the motion of the centre of
+  /// mass, that is Boltzmann's constant times the temperature [J]; in the reduced units of a
+  /// Lennard-Jones potential this is the temperature.
   double temperature = 0;
   double pressure = 0;  ///< of a fluid, mean over its particles [Pa]
 };

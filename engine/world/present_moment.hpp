@@ -3,9 +3,8 @@
 
 namespace tumble {
 
-/// Lets the forces of the present moment be asked for between ticks: while it lasts the bodies end
-/// with the particles that act on them, and all may be moved about. It then gives the state back as
-/// it was.
+/// Allows forces to be evaluated between ticks: during its life the particles that act on bodies
+/// are appended to the bodies as blocks, and all may be changed. The destructor restores the state.
 class PresentMoment {
  public:
   explicit PresentMoment(WorldState& state);
@@ -13,7 +12,7 @@ class PresentMoment {
   PresentMoment(const PresentMoment&) = delete;
   PresentMoment& operator=(const PresentMoment&) = delete;
 
-  /// Whether the particles could be made.
+  /// Error: the blocks could not be made.
   const Status& status() const { return status_; }
 
  private:

@@ -9,10 +9,11 @@
 namespace tumble {
 namespace {
 
-/// Kinds of what springs tie.
+/// What a body slot is to the springs: an end that moves; a block of a particle; part of a net that
+/// also has particles without blocks.
 constexpr uint8_t tied = 1, block = 2, elsewhere = 4;
 
-/// Takes a share out of the force sums.
+/// Subtracts a share from the force sums.
 void withdraw(ForceShare& share, std::vector<RigidBody>& bodies) {
   for (const ForceShare::OnBody& on : share.bodies) {
     if (!bodies[on.slot].dynamic()) continue;
@@ -32,7 +33,7 @@ void PressedNets::clear() {
   forces_.clear();
 }
 
-/// The slots that particles that collide will have, behind the bodies.
+/// Computes the slots, after those of bodies, that colliding particles will have.
 void PressedNets::number_particles(const WorldState& s) {
   auto next = uint32_t(s.bodies.bodies.size());
   first_block_ = next;
@@ -53,7 +54,7 @@ void PressedNets::begin_sets(size_t slots) {
   pressed_.assign(slots, 0);
 }
 
-/// Slot of a particle; no_body where it is gone, or has no block.
+/// Slot of a particle; no_body if it does not exist or has no block.
 uint32_t PressedNets::slot_of(const WorldState& s, ParticleSystemId system, uint64_t id) const {
   if (!s.particle_ids.contains(system) || first_of_[system.index] == no_body) return no_body;
   const ParticleSystem& p = s.particles[system.index];
@@ -65,7 +66,7 @@ bool PressedNets::moves(const WorldState& s, uint32_t slot) const {
   return slot != no_body && (slot >= first_block_ || s.bodies.bodies[slot].dynamic());
 }
 
-/// Adds an anchor as an end of a spring; whether it is there.
+/// Adds an anchor as an end of a spring; returns whether the anchor exists.
 bool PressedNets::add_end(const WorldState& s, const Anchor& anchor, double weight,
                           SolvedSpring& spring) {
   if (anchor.kind == Anchor::Kind::world) {
@@ -87,7 +88,7 @@ bool PressedNets::add_end(const WorldState& s, const Anchor& anchor, double weig
   return true;
 }
 
-/// Takes a spring whose ends are known, if it can move anything.
+/// Adds a complete spring, if one of its ends can move.
 void PressedNets::take(const WorldState& s, const SolvedSpring& spring, uint32_t force) {
   uint32_t first = no_body;
   for (uint32_t i = 0; i < spring.count; ++i) {
@@ -121,7 +122,7 @@ void PressedNets::take_mesh(const WorldState& s, const SpringMesh& mesh, uint32_
     spring.damping = damping;
     spring.rest_length = rest_length;
     take(s, spring, force);
-    // A force is of one net, as a whole.
+    // All springs of one force belong to the same net.
     const uint32_t slot = any_end(spring);
     if (first == no_body) first = slot;
     if (slot != no_body) sets_.join(first, slot);
@@ -134,7 +135,7 @@ void PressedNets::take_mesh(const WorldState& s, const SpringMesh& mesh, uint32_
     take_with(std::span(b.node).first(b.count), b.weight, b.stiffness, b.damping, 0);
 }
 
-/// All springs that tie particles with blocks to each other and to bodies.
+/// Finds all springs that connect particles with blocks to each other and to bodies.
 void PressedNets::find_nets(const WorldState& s) {
   for (uint32_t i = 0; i < s.forces.size(); ++i) {
     if (!s.forces[i]) continue;
@@ -143,7 +144,7 @@ void PressedNets::find_nets(const WorldState& s) {
     else if (const auto* mesh = std::get_if<SpringMeshDef>(&*s.forces[i]))
       take_mesh(s, *mesh->mesh, i);
   }
-  // What a net has of all kinds, at the slot that stands for it.
+  // The kinds of all ends of a net, first at its root, then at all of its slots.
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[sets_.root(slot)] |= of_[slot];
   for (uint32_t slot = 0; slot < of_.size(); ++slot) of_[slot] = of_[sets_.root(slot)];
   std::erase_if(tied_, [this](const Tied& t) { return !in_net(any_end(t.spring)); });
@@ -186,7 +187,8 @@ void PressedNets::find_among(const WorldState& s, std::span<const uint32_t> movi
       tied_, [&](const Tied& t) { return !std::ranges::binary_search(moving, any_end(t.spring)); });
 }
 
-/// What a contact pressed in the tick before takes sub-steps in this one too.
+/// Marks the nets that a contact pressed in the last tick, which are solved in sub-steps in this
+/// one too.
 void PressedNets::take_pressed_before(const WorldState& s) {
   s.particle_contacts.for_each([&](const Contact& c) {
     if (!c.pressed()) return;
@@ -216,7 +218,7 @@ bool PressedNets::in_net(uint32_t slot) const {
   return of_[slot] == (tied | block);
 }
 
-/// A body of a spring that it can move.
+/// Slot of an end of a spring that can move.
 uint32_t PressedNets::any_end(const SolvedSpring& spring) const {
   for (uint32_t i = 0; i < spring.count; ++i)
     if (spring.end[i].slot != no_body && (of_[spring.end[i].slot] & tied))
@@ -224,9 +226,10 @@ uint32_t PressedNets::any_end(const SolvedSpring& spring) const {
   return no_body;
 }
 
-/// Whether one straight step of `part` seconds is too long for a spring: its ends pass by a good
-/// part of its length, or it turns so far that straight paths stretch it by much energy. An angle a
-/// stretches it by l a^2 / 2, which is k h^2 / m a^2 / 4 of the energy of its turning.
+/// Whether a straight step of `part` seconds is too long for a spring: its ends pass each other by
+/// a large part of its length, or it rotates so far that straight paths stretch it by much energy.
+/// A rotation by the angle a stretches it by l a^2 / 2, which costs k h^2 / m a^2 / 4 of the energy
+/// of its rotation.
 bool PressedNets::is_outrun(const WorldState& s, const SolvedSpring& spring, double part) const {
   if (spring.rest_length == 0) return false;
   const auto [q, rate, mobility] = spring_motion(spring, s.bodies.bodies);
@@ -274,7 +277,7 @@ void PressedNets::share(const WorldState& s, double part, std::span<ForceShare> 
   }
 }
 
-/// What the springs of one force do, each body once.
+/// Sums what the springs of one force do, with one entry per body.
 void PressedNets::share_force(const WorldState& s, std::span<const SolvedSpring> springs,
                               double part, ForceShare& share) {
   share.clear();

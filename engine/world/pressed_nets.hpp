@@ -14,34 +14,37 @@ namespace tumble {
 struct ForceShare;
 struct WorldState;
 
-/// Nets of springs with particles that collide. One that touches nothing is pulled once a tick
-/// (pull_springs). In a tick in which it meets anything its springs are solved with its contacts in
-/// the sub-steps instead (SpringRow): what a contact stops within the tick springs would else go on
-/// to press together as if it flew on, and a stiff net gains a thousand times its energy. So are
-/// the springs of a net that turns or is crossed too fast for a tick.
+/// Nets of springs with colliding particles. The springs of a net that touches nothing act as
+/// forces that are computed once a tick (pull_springs). In a tick in which a net touches anything,
+/// its springs are instead solved together with its contacts in the sub-steps (SpringRow): forces
+/// computed for the whole tick would go on to compress springs after a contact has stopped their
+/// ends, and a stiff net would gain a thousand times its energy. The same is done for springs that
+/// rotate, or whose ends pass each other, too fast for a tick.
 class PressedNets {
  public:
-  /// The nets of a tick whose blocks of particles are still to come, and which were pressed in the
-  /// one before.
+  /// Finds the nets before the blocks of particles are appended, and those of them that contacts
+  /// pressed in the last tick.
   void find(const WorldState& state);
-  /// Those among `moving`, which are sorted and have the blocks of particles with them: bodies that
-  /// meet so much in a tick of events that time-stepping moves them. All count as pressed.
+  /// Finds the nets among `moving`, which is sorted and includes the blocks of particles: the
+  /// bodies of a tick of the event stepper that are time-stepped. All of these nets count as
+  /// pressed.
   void find_among(const WorldState& state, std::span<const uint32_t> moving);
-  /// Whether a force is to be asked for its pull: not where it is known to take sub-steps.
+  /// Whether a force is to be evaluated as a pull for the whole tick: not if its net is known to be
+  /// solved in sub-steps.
   bool pulls(size_t force) const {
     return force >= pulled_apart_.size() || pulled_apart_[force] == 0;
   }
-  /// After the blocks of particles are appended: makes links(), and marks the particles that look
-  /// for contacts along their whole way.
+  /// After the blocks of particles are appended: fills links(), and makes the particles of nets
+  /// look for contacts along their whole path.
   void tie_blocks(std::vector<RigidBody>& bodies);
-  /// Between all that springs of these nets tie.
+  /// Links between all bodies and blocks that springs of these nets connect.
   std::span<const BodyLink> links() const { return links_; }
-  /// Now that contacts are known for `part` seconds: the springs of nets that are pressed, in the
-  /// order of the forces. What was pulled by them for the tick is taken out of the force sums, and
-  /// of the shares by force.
+  /// To be called when the contacts of a part of a tick are known, with its length `part` [s].
+  /// Returns the springs of the pressed nets, in the order of the forces. The pulls of those
+  /// springs for the whole tick are subtracted from the force sums, and their shares are cleared.
   std::span<SolvedSpring> press(WorldState& state, std::span<const Contact> contacts, double part,
                                 std::span<ForceShare> shares);
-  /// Notes what these springs did in `part` seconds as what their forces do.
+  /// Stores the mean forces of these springs over `part` seconds as the shares of their forces.
   void share(const WorldState& state, double part, std::span<ForceShare> shares);
   void clear();
 
@@ -70,14 +73,18 @@ class PressedNets {
 
   std::vector<Tied> tied_;
   std::vector<BodyLink> links_;
-  uint32_t first_block_ = 0;           ///< slot of the first particle that is a block
-  std::vector<uint32_t> first_of_;     ///< by system: slot of its first, no_body of those without
-  std::vector<uint8_t> pulled_apart_;  ///< by force: it takes sub-steps, as is known from the start
-  std::vector<uint32_t> place_;   ///< by slot: of its entry in the share under way + 1, 0 between
-  bool astray_ = false;           ///< an end of what is under way is a particle and no body
-  DisjointSets sets_;             ///< of body slots
-  std::vector<uint8_t> of_;       ///< by slot: kinds of what its net ties
-  std::vector<uint8_t> pressed_;  ///< by the slot that stands for a net
+  uint32_t first_block_ = 0;  ///< slot of the first particle that is a block
+  /// By system: slot of its first particle's block, no_body if it has none.
+  std::vector<uint32_t> first_of_;
+  /// By force: its net is solved in sub-steps from the start of the tick.
+  std::vector<uint8_t> pulled_apart_;
+  /// By body slot: 1 + index of its entry in the share being built; 0 between uses.
+  std::vector<uint32_t> place_;
+  /// An end of the spring being added is a particle without a block.
+  bool astray_ = false;
+  DisjointSets sets_;             ///< of body slots that springs connect
+  std::vector<uint8_t> of_;       ///< by slot: what kinds of ends its net has
+  std::vector<uint8_t> pressed_;  ///< by the slot that is the root of a net
   std::vector<SolvedSpring> springs_;
   std::vector<uint32_t> forces_;  ///< by spring: slot of its force
 };

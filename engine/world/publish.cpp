@@ -37,14 +37,15 @@ BodyFrame frame_of(const WorldState& s, uint32_t i) {
   return {s.bodies.ids.at(i), b.pose, b.v, b.omega, island_of(s, i), b.asleep, b.teleported};
 }
 
-/// Whether a body's entry must be made anew: it moves, or it differs from what was last published.
+/// Whether a body's entry must be made anew: its motion or state differs from what was last
+/// published.
 bool changed(const WorldState& s, const BodyFrame& old, uint32_t i) {
   const RigidBody& b = s.bodies.bodies[i];
   const bool moved = b.pose.x != old.pose.x || b.pose.q.coeffs() != old.pose.q.coeffs();
   return b.awake() || moved || b.asleep != old.asleep || island_of(s, i) != old.island;
 }
 
-/// Bodies `teleported` count as such until they were published: the next frame says so no more.
+/// A body stays marked `teleported` until a frame has shown it; the flag is cleared here.
 void make_chunk(WorldState& s, size_t c, std::shared_ptr<const Frame::BodyChunk>& out) {
   const uint32_t begin = uint32_t(c * Frame::chunk_size);
   const uint32_t end = std::min(begin + uint32_t(Frame::chunk_size), s.bodies.ids.capacity());
@@ -81,13 +82,13 @@ void make_chunks(WorldState& s, std::vector<std::shared_ptr<const Frame::BodyChu
       least);
 }
 
-/// Writes a frame for every point of the contacts to the next place. Poses come from the bodies of
-/// `frame`, which lie closer together than the world's.
+/// Passes a ContactFrame for every contact point to `next`. Poses are read from `frame`, whose
+/// bodies are closer together in memory than those of the world.
 template <class Next>
 void put_contacts(const Frame& frame, std::span<const Contact* const> contacts, const Next& next) {
   uint32_t last = ~uint32_t{0};
   Mat3 axes_a = Mat3::Identity();
-  for (size_t k = 0; k < contacts.size(); ++k) {  // those of a body follow each other
+  for (size_t k = 0; k < contacts.size(); ++k) {  // contacts of a body are consecutive
     prefetch<sizeof(ContactHead) + sizeof(ContactPoint)>(
         contacts[std::min(k + 8, contacts.size() - 1)]);
     const Contact& c = *contacts[k];
@@ -111,7 +112,7 @@ void put_contacts(const Frame& frame, std::span<const Contact* const> contacts, 
 
 using ContactFrames = std::shared_ptr<const std::vector<ContactFrame>>;
 
-/// `points`: about so many.
+/// `points`: expected number of points.
 ContactFrames make_contacts(WorldState& s, const Frame& frame,
                             std::span<const Contact* const> contacts, size_t points) {
   const auto out = s.frames.pool.contacts.get();
@@ -126,7 +127,7 @@ ContactFrames make_contacts(WorldState& s, const Frame& frame,
     out->resize(count);
     return out;
   }
-  std::array<size_t, chunk_count> begins{};  // of the points of each chunk; counts at first
+  std::array<size_t, chunk_count> begins{};  // first point of each chunk; counts at first
   for_chunks(s.crew.get(), contacts.size(), [&](size_t chunk, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k) begins[chunk] += size_t(contacts[k]->count);
   });
@@ -152,7 +153,7 @@ ContactFrames make_active_contacts(WorldState& s, const Frame& frame) {
   return make_contacts(s, frame, s.frames.contacts, points);
 }
 
-/// Where nothing was put away or brought back since the last frame, its list.
+/// The list of the last frame, if no contact came to rest or was disturbed since.
 ContactFrames make_resting_contacts(WorldState& s, const Frame& frame) {
   const uint64_t revision = s.contacts.resting_revision();
   const bool same = s.frames.last && s.frames.resting_revision == revision;
@@ -161,7 +162,7 @@ ContactFrames make_resting_contacts(WorldState& s, const Frame& frame) {
   return make_contacts(s, frame, s.contacts.resting(), s.contacts.resting_points());
 }
 
-/// Over what `out` held: it keeps its memory.
+/// Overwrites `out`, whose memory is reused.
 void make_forces(WorldState& s, std::vector<ForceFrame>& out) {
   const ForceContext context = s.force_context();
   out.resize(s.forces.size());
@@ -217,7 +218,7 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(WorldState& s) {
   return out;
 }
 
-/// Over what `out` held.
+/// Overwrites `out`, whose memory is reused.
 void make_particles(WorldState& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
   out.clear();
   const auto emitter = [&s](EmitterId id) -> const Emitter* { return s.emitters.find(id); };
@@ -230,14 +231,14 @@ void make_particles(WorldState& s, std::vector<std::shared_ptr<const ParticleFra
   }
 }
 
-/// Over what `out` held.
+/// Overwrites `out`, whose memory is reused.
 void make_fluid_forces(const WorldState& s, std::vector<FluidForceFrame>& out) {
   out.clear();
   for (const FluidWorkspace::OnBody& on : s.workspace.fluids.on_bodies)
     if (s.bodies.ids.alive(on.slot)) out.push_back({s.bodies.ids.at(on.slot), on.force, on.torque});
 }
 
-/// A frame to be filled in anew, which holds nothing of what it was but memory.
+/// An empty frame that reuses memory of an old one.
 std::shared_ptr<Frame> blank_frame(FramePool& pool) {
   auto frame = pool.frames.get();
   frame->chunks.clear();
@@ -251,14 +252,14 @@ std::shared_ptr<Frame> blank_frame(FramePool& pool) {
   return frame;
 }
 
-/// Publishing, which began at `start`, is the last stage: nobody could tell it later.
+/// Stores the times of the stages; publishing itself, which began at `start`, is the last of them.
 void note_stages(WorldState& s, std::chrono::steady_clock::time_point start) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   s.stats.stages = s.profiler.stages();
   s.stats.stages.add("publish", spent.count());
 }
 
-/// Builds the frame of the present state, sharing with the last one what did not change.
+/// Makes the frame of the present state; parts that did not change are shared with the last frame.
 void publish_frame(WorldState& s) {
   const auto start = std::chrono::steady_clock::now();
   auto frame = blank_frame(s.frames.pool);
@@ -295,7 +296,7 @@ void publish_frame(WorldState& s) {
   s.frames.last = std::move(frame);
 }
 
-/// The last frame again, of the present tick; for a state that is still.
+/// Makes a frame of the present tick that equals the last one, for a state that is still.
 void repeat_frame(WorldState& s) {
   const auto start = std::chrono::steady_clock::now();
   auto frame = blank_frame(s.frames.pool);

@@ -98,11 +98,11 @@ size_t Replay::count_before(uint64_t tick) const {
   return size_t(first - commands_.begin());
 }
 
-/// Whether what the world's log holds from this command on was recorded there, too.
+/// Whether the commands in the world's log from `first` on equal the recorded ones.
 bool Replay::same_commands(const World& world, size_t first) const {
   const std::vector<LoggedCommand>& done = world.replay_log().entries();
   if (done.size() > commands_.size()) return false;
-  // Each with a store of its own: shapes are written by what they are.
+  // Each side has a store of its own: geometry is compared by content.
   ShapeStore own, recorded;
   for (size_t i = first; i < done.size(); ++i) {
     if (done[i].tick != commands_[i].tick) return false;
@@ -122,7 +122,8 @@ Result<Replay::Course> Replay::follow(World& world) const {
   const uint64_t now = world.tick();
   if (now > last_tick_) return Course::left;
   const size_t done = world.replay_log().entries().size(), earlier = count_before(now);
-  // What somebody else did at an earlier tick stands where one of now, or none, would have to be.
+  // A different command at an earlier tick is in a place where the recording has another one, or
+  // none.
   if (done < earlier || !same_commands(world, earlier)) return Course::left;
   for (size_t i = done; i < commands_.size() && commands_[i].tick == now; ++i)
     if (Status s = world.submit(commands_[i].command); !s) return s.error();

@@ -44,7 +44,7 @@ struct WorldSettings {
   }
 };
 
-/// "event", "realtime": the ways to compute a tick.
+/// "event", "realtime".
 std::vector<std::string_view> stepper_names();
 
 }  // namespace tumble

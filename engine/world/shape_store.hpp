@@ -9,22 +9,23 @@
 
 namespace tumble {
 
-/// Immutable geometry addressed by its content: equal meshes and equal shapes are stored once, so
-/// that a thousand bodies of one mesh share one tree, and snapshots may name geometry instead of
-/// holding it. May be shared between worlds; safe to use from several threads.
+/// Immutable geometry addressed by content: equal meshes and equal shapes are stored once, so that
+/// a thousand bodies of one mesh share one tree, and snapshots can refer to geometry by its key.
+/// May be shared between worlds, and used from several threads.
 class ShapeStore {
  public:
   /// The shape of this definition, built on first use.
   Result<std::shared_ptr<const Shape>> shape(const ShapeDef& def);
 
-  /// Content hash of a mesh, which the store keeps from now on; 0 for null.
+  /// Content hash of a mesh, which is added to the store; 0 for null.
   uint64_t add_mesh(const std::shared_ptr<const TriangleMesh>& mesh);
-  /// Null when the store does not hold it.
+  /// Null if the store does not have it.
   std::shared_ptr<const TriangleMesh> mesh(uint64_t key) const;
 
-  /// A shape definition: kind, the numbers that it uses, its mesh as a content key.
+  /// Writes a shape definition: kind, the parameters that this kind uses, and the content key of
+  /// its mesh.
   void write(ByteWriter& out, const ShapeDef& def);
-  /// Fails the reader when a value is out of range or the mesh is not in the store.
+  /// Fails the reader if a value is out of range or the mesh is not in the store.
   ShapeDef read(ByteReader& in) const;
 
  private:

@@ -11,9 +11,9 @@ namespace tumble {
 namespace {
 
 constexpr uint32_t version = 1;
-/// 2: closest features of polyhedra. 3: what the narrow phase saw. 4: of shapes and not of bodies.
-/// 5: rolling and torsional friction. 6: no patch against spinning. 7: of whole bodies where they
-/// have several shapes.
+/// 2: closest features of polyhedra. 3: cached results of the narrow phase. 4: by shape instead of
+/// body. 5: rolling and torsional friction. 6: no patch radius for torsion. 7: by body where a body
+/// with several shapes is paired as a whole.
 constexpr uint32_t contacts_version = 7;
 /// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
 /// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains. 8: mass at birth,
@@ -30,15 +30,14 @@ constexpr uint32_t emitters_version = 6;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
-/// 2: particles in contact. 3: ticks that are time-stepped. 4: those of particles.
+/// 2: particles in contact. 3: time-stepped ticks of bodies. 4: of particles.
 constexpr uint32_t event_version = 4;
-/// 2: inertia and group. 3: whether they are solved precisely; shapes have the numbers that they
-/// use. 4: opacity of looks; rolling and torsional friction of materials. 5: mean velocities.
-/// 6: friction with fluids. 7: courses; whole tensors of inertia, centres of mass, what is drawn
-/// alone. 8: meshes that shapes stand for. 9: whether a material gives rolling and torsional
-/// friction.
+/// 2: inertia and group. 3: `precise`; shapes store only the parameters that they use. 4: opacity
+/// of looks; rolling and torsional friction of materials. 5: mean velocities. 6: friction with
+/// fluids. 7: courses; full inertia tensors, centres of mass, shapes that are only drawn. 8: meshes
+/// that shapes approximate. 9: whether a material defines rolling and torsional friction.
 constexpr uint32_t bodies_version = 9;
-/// 2: the line of overlap. 3: emission and removal. 4: fluids. 5: motors of joints.
+/// 2: the line `offset`. 3: emission and removal. 4: fluids. 5: motors of joints.
 constexpr uint32_t ledger_version = 5;
 /// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
 /// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and

@@ -44,14 +44,15 @@ class SpringRates {
  private:
   struct Node {
     const RigidBody* body = nullptr;
-    double mobility = 0;  ///< a bound on it in any direction [1/kg]
+    /// Upper bound of its mobility in any direction [1/kg].
+    double mobility = 0;
   };
   Node node_of(const Anchor& a) const {
     const RigidBody* body = pulled_body(a, context_);
     if (!body || !body->dynamic()) return {};
     return {body, (mobility(a, context_).cwiseAbs() * Vec3::Ones()).maxCoeff()};
   }
-  /// A spring between two ends: the row of either has one entry for each that moves.
+  /// A spring between two ends. The row of each end has one block per end that can move.
   void add(const Node& a, const Node& b, double stiffness, double damping) {
     const double entries = a.body && b.body ? 2 : 1;
     add(a, entries * stiffness, entries * damping);

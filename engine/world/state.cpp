@@ -41,7 +41,7 @@ void WorldState::mark_active() {
     frames.unsure = true;
     return;
   }
-  // What settled has left its island.
+  // Bodies that fell asleep in this tick are no longer in an island.
   for (const std::span<const uint32_t> slots : {roster.active(), roster.settled()})
     for (const uint32_t slot : slots) frames.mark_changed(slot);
 }
@@ -139,7 +139,7 @@ Status choose_algorithms(WorldState& state, const WorldSettings& settings) {
                               {*time, settings.narrow_phase == "v_clip"}};
   const auto kind = find_named(all_hierarchies(), settings.hierarchy, "hierarchy");
   if (!kind) return kind.error();
-  state.methods.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // which every mesh has
+  state.methods.hierarchy = settings.hierarchy == "aabb" ? nullptr : *kind;  // every mesh has it
   return {};
 }
 

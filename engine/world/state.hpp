@@ -38,12 +38,11 @@ namespace tumble {
 
 struct TickWatch;
 
-/// A live force and its definition; dead slots are empty.
+/// Definitions of the live forces, by slot; dead slots are empty.
 using ForceSlots = std::vector<std::optional<ForceDef>>;
 
-/// Identity of everything that commands name, including commands that still wait in the queue: an
-/// id is given out when the command is queued, and the same allocation is repeated when it is
-/// applied.
+/// Ids of everything that commands name, including those of queued commands: an id is given out
+/// when its command is queued, and the same allocation is repeated when it is applied.
 struct ReservedIds {
   HandlePool<BodyTag> bodies;
   HandlePool<ForceTag> forces;
@@ -54,7 +53,7 @@ struct ReservedIds {
   HandlePool<SensorTag> sensors;
 };
 
-/// Emitters by slot; a dead one has no definition.
+/// Emitters by slot; dead ones have no definition.
 struct EmitterSet {
   HandlePool<EmitterTag> ids;
   std::vector<Emitter> list;
@@ -70,10 +69,10 @@ struct SinkSet {
 /// A collision of a `fast` particle in this tick.
 struct FastCollision {
   uint32_t system = 0, particle = 0;  ///< slot and index
-  Vec3 x = Vec3::Zero();              ///< of its centre [m]
+  Vec3 x = Vec3::Zero();              ///< centre of the particle [m]
 };
 
-/// What bodies add to the measures.
+/// Contributions of bodies to the measured sums.
 struct BodySums {
   uint64_t awake = 0;
   double kinetic = 0, gravity = 0;  ///< energies [J]
@@ -83,22 +82,23 @@ struct BodySums {
   void add(const BodySums& other);
 };
 
-/// Where the present tick rate began to count: time is seconds + (n - tick) / rate.
+/// Start of the present tick rate: the time of tick n is seconds + (n - tick) / rate.
 struct Clock {
   uint64_t tick = 0;
   double seconds = 0;
 };
 
-/// The algorithms that the settings name.
+/// The algorithms that the settings choose.
 struct Methods {
   std::unique_ptr<BroadPhase> broad_phase;
-  std::unique_ptr<BroadPhase> path_broad_phase;  ///< of the continuous stage, whose bounds differ
+  /// Of the continuous stage, which has other bounds.
+  std::unique_ptr<BroadPhase> path_broad_phase;
   NarrowPhase narrow_phase = &collide;
   ContinuousMethods continuous;
-  const HierarchyKind* hierarchy = nullptr;  ///< of mesh against mesh; null for "aabb"
+  const HierarchyKind* hierarchy = nullptr;  ///< for mesh against mesh; null for "aabb"
 };
 
-/// Memory that the stages of a tick use again in the next one.
+/// Scratch memory of the stages, kept from tick to tick.
 struct Workspace {
   RealtimeSolver solver;
   ContinuousStage continuous;
@@ -106,9 +106,9 @@ struct Workspace {
   std::vector<ProxyPair> pairs;
   RealtimeBooks books;
   PairFilter apart;             ///< of the present tick
-  std::vector<BodyLink> links;  ///< of body_links()
+  std::vector<BodyLink> links;  ///< result of body_links()
   SumsBefore sums_before;
-  std::vector<uint8_t> supported;  ///< by slot, for springs: see pull_springs()
+  std::vector<uint8_t> supported;  ///< by slot: held by contacts or joints, for pull_springs()
   PressedNets pressed_nets;
   SleepScratch sleep_scratch;
   std::vector<FastCollision> fast_collisions;  ///< of the present tick, in the order of their time
@@ -119,44 +119,47 @@ struct Workspace {
   SensorScratch sensors;
 };
 
-/// What was there before the present tick: a tick that fails puts it back.
+/// The state before the present tick, which is restored if the tick fails.
 struct BeforeTick {
   TickBackup backup;
   StepStats stats;
   Ledger ledger;
 };
 
-/// The last frame, and what the next one need not make anew.
+/// The last frame, and which parts of it the next one can share.
 struct FrameState {
-  std::shared_ptr<const Frame> last;  ///< that was asked for
-  /// What is to be done when the next is asked for, by any thread while none steps.
+  std::shared_ptr<const Frame> last;  ///< the last one that was asked for
+  /// What to do when the next frame is asked for, by any thread while no step runs.
   enum class Due : uint8_t { nothing, repeat, make };
   Due due = Due::make;
   std::mutex mutex;
   FramePool pool;
-  bool infos_changed = true;  ///< bodies or joints were made or destroyed since the last frame
-  std::vector<uint8_t> chunks_changed;   ///< by chunk, since the last frame
-  bool unsure = true;                    ///< chunks_changed may lack some: all bodies are looked at
-  uint64_t resting_revision = 0;         ///< of the last frame's resting contacts
+  bool infos_changed = true;  ///< bodies or joints were created or destroyed since the last frame
+  std::vector<uint8_t> chunks_changed;  ///< by chunk: changed since the last frame
+  /// Chunks_changed may be incomplete: all bodies are compared.
+  bool unsure = true;
+  uint64_t resting_revision = 0;         ///< revision of the resting contacts in the last frame
   std::vector<const Contact*> contacts;  ///< scratch
 
   void mark_changed(uint32_t body_slot);
   void forget_bodies();
 };
 
-/// What bodies add to the measures, by block of slots.
+/// Contributions of bodies to the measured sums, by block of slots.
 struct BlockSums {
   std::vector<BodySums> blocks;
-  std::vector<uint32_t> stale;  ///< those that were summed anew
+  std::vector<uint32_t> stale;  ///< blocks that are to be summed again
 };
 
-/// What has been said once in a world's life and is only counted from then on.
+/// Warnings that have been given: each is given once in a world's life, and only counted
+/// afterwards.
 struct Told {
   bool fallback = false, substituted = false, jam = false, deep = false, dragged = false,
        time_stepped = false, two_fluids = false;
 };
 
-/// All that a World is. The first group is saved in snapshots; the rest is derived or scratch.
+/// The whole state of a World. The first group is saved in snapshots; the rest is derived or
+/// scratch.
 struct WorldState {
   // -- saved
   WorldSettings settings;
@@ -170,13 +173,13 @@ struct WorldState {
   HandlePool<ParticleSystemTag> particle_ids;
   std::vector<ParticleSystem> particles;  ///< by slot
   ContactSet contacts;
-  ContactSet particle_contacts;  ///< under realtime; they name particles by their place in
+  ContactSet particle_contacts;  ///< under realtime; particles are named by their index in:
   std::vector<ParticleName> touching_particles;
   GrainTouches grain_touches;
   EmitterSet emitters;
   SinkSet sinks;
   SensorSet sensors;
-  EventStepper event;  ///< its contacts and the particles that they name
+  EventStepper event;  ///< its contacts, and the particles that they name
   Ledger ledger;
   ReservedIds reserved;
   std::vector<Command> queue;
@@ -188,7 +191,7 @@ struct WorldState {
   std::shared_ptr<ShapeStore> shapes;
   std::unique_ptr<Crew> crew;
   const StopFlag* stop = nullptr;  ///< of the caller
-  TickWatch* watch = nullptr;      ///< likewise; null: nobody looks
+  TickWatch* watch = nullptr;      ///< likewise; null: nothing is recorded
 
   // -- derived by each tick, or scratch
   std::vector<uint32_t> on_course;  ///< slots of bodies whose definition has a course, ascending
@@ -196,7 +199,7 @@ struct WorldState {
   Methods methods;
   Workspace workspace;
   Roster roster;
-  ParticleBlocks blocks;  ///< behind the bodies, while a tick lasts
+  ParticleBlocks blocks;  ///< appended to the bodies during a tick
   IslandSet islands;
   ParticleDetection particle_detection;
   StepStats stats;
@@ -205,23 +208,23 @@ struct WorldState {
   Profiler profiler;
   FrameState frames;
   QueryCache queries;
-  /// The last tick left everything as it was, and so will every later one until something else than
-  /// a tick changes the state: frames are repeated.
+  /// The last tick changed nothing, and later ones will not either until something other than a
+  /// tick changes the state: frames are repeated.
   bool still = false;
-  /// Some bodies may have been made asleep since the last tick: they have no contacts yet.
+  /// Bodies may have been created asleep since the last tick; those have no contacts yet.
   bool laid_asleep = true;
 
-  /// What a ShapeFactory refers to.
+  /// A function of the kind that ShapeFactory refers to.
   auto shape_factory() {
     return [this](const ShapeDef& def) { return shapes->shape(def); };
   }
   double time() const { return clock.seconds + settings.tick.time(tick - clock.tick); }
-  /// Of the end of the tick under way [s].
+  /// At the end of the tick in progress [s].
   double time_after() const { return clock.seconds + settings.tick.time(tick + 1 - clock.tick); }
   ForceContext force_context();
-  /// For the next frame: the bodies that the tick may have changed.
+  /// Marks the bodies that the tick may have changed, for the next frame.
   void mark_active();
-  /// From here on any body may be another than the last tick left.
+  /// Declares that any body may have changed since the last tick.
   void forget_bodies();
   void warn(std::string_view message) const {
     if (log_sink) log_sink(LogLevel::warning, message);
@@ -238,30 +241,32 @@ Status apply_command(WorldState& state, const Command& command);
 Status choose_algorithms(WorldState& state, const WorldSettings& settings);
 Status validate(const WorldSettings& settings);
 
-/// The frame of the present state, which is made now unless it was before.
+/// The frame of the present state, which is made now if it is out of date.
 const std::shared_ptr<const Frame>& present_frame(WorldState& state);
 
 /// Energies, momenta and counts of the present state.
 void measure(WorldState& state);
-/// After the books of a tick: an error where energy or momentum is not finite, or where there is a
-/// thousand times as much energy as came in by anything that the books know; names what has most.
+/// To be called after the books of a tick are closed. Error: energy or momentum is not finite, or
+/// the energy exceeds a thousand times what came in by all causes in the ledger; it names the body
+/// or particle with the most energy.
 Status check_energy(const WorldState& state);
-/// What the books compare, as measured last.
+/// Energy and momenta as measure() found them last, for the ledger.
 LedgerState measured(const WorldState& state);
-/// The same of some particles alone: `systems` by slot.
+/// The same for these particles only; `systems` is by slot.
 LedgerState measure_particles(WorldState& state, std::vector<ParticleSystem>& systems);
 
-/// A way to compute a tick.
+/// An entry of the list of steppers.
 struct StepperEntry {
   std::string_view name;
   Status (*step)(WorldState& state);
-  bool gathers = false;  ///< its loops are short: the threads stay together for the whole tick
+  bool gathers = false;  ///< its loops are short: Crew::gather keeps the threads for the whole tick
 };
 /// "event", "realtime".
 const std::vector<StepperEntry>& all_steppers();
 
 Bytes save_state(const WorldState& state, bool with_geometry);
-/// Replaces the state or leaves it alone; gives the length of the replay log when it was saved.
+/// Replaces the state, or on failure leaves it unchanged; returns the length of the replay log at
+/// the time of saving.
 Result<uint64_t> load_state(WorldState& state, std::span<const std::byte> snapshot);
 
 }  // namespace tumble

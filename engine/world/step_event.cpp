@@ -23,7 +23,7 @@
 namespace tumble {
 namespace {
 
-/// Nothing sleeps under this stepper.
+/// Bodies do not sleep under this stepper.
 void wake_sleepers(WorldState& s) {
   for (RigidBody& b : s.bodies.bodies)
     if (b.asleep) wake(b);
@@ -33,7 +33,8 @@ LedgerEntry entry_of(const CauseEffect& e) {
   return {e.work, e.lost, e.momentum, e.angular_momentum};
 }
 
-/// What the causes did in the tick, from the quadratures of the groups and their impacts.
+/// Books the effects of the causes in the tick: the integrals over the groups' motion, and their
+/// impacts.
 void book_tick(WorldState& s) {
   static constexpr LedgerLine lines[contact_causes] = {
       LedgerLine::restitution, LedgerLine::friction,   LedgerLine::kinematic, LedgerLine::joints,
@@ -63,7 +64,8 @@ bool any_fast(const WorldState& s) {
                      [](const ParticleSystem& p) { return p.fast || p.fluid; });
 }
 
-/// Whether a spring is tied to a particle that moves once a tick: such springs pull once a tick.
+/// Whether a spring is attached to a particle that moves once a tick; such a spring is evaluated
+/// once a tick.
 bool holds_fast(const WorldState& s, const ForceDef& spring) {
   const Anchors ends = anchors(spring);
   return std::any_of(ends.begin(), ends.end(), [&s](const Anchor& end) {
@@ -72,7 +74,7 @@ bool holds_fast(const WorldState& s, const ForceDef& spring) {
   });
 }
 
-/// Which force does what to which particle that is no block, for the books.
+/// Computes the share of each force on particles that are not blocks, for the books.
 void share_forces_on_particles(WorldState& s) {
   s.workspace.books.shares.clear();
   if (!any_fast(s)) return;
@@ -85,8 +87,8 @@ void share_forces_on_particles(WorldState& s) {
                    [&s](size_t slot) { return holds_fast(s, *s.forces[slot]); });
 }
 
-/// What particles remember of ticks that were too much for their groups, by slot of their blocks
-/// while these are there.
+/// Moves the record of time-stepped ticks of particles to the slots of their blocks, while these
+/// exist.
 void restore_time_stepped(WorldState& s) {
   s.event.time_stepped.resize(s.bodies.bodies.size());
   for (const TimeSteppedParticle& p : s.event.time_stepped_particles)
@@ -102,7 +104,7 @@ void store_time_stepped(WorldState& s) {
       s.event.time_stepped_particles.push_back({s.blocks.name(slot), s.event.time_stepped[slot]});
 }
 
-/// From here on the bodies end with the particles that move like them.
+/// Appends the particles that move as bodies do to the bodies.
 Status append_particles(WorldState& s) {
   if (Status made = s.blocks.append(ParticleBlocks::Which::not_fast, s.particle_ids, s.particles,
                                     s.bodies.bodies);
@@ -148,7 +150,7 @@ Status move_bodies(WorldState& s, const TickForces& forces, TimeStepping& time_s
                       context, s.settings.tick.tick(), *s.crew);
 }
 
-/// Contacts where frames, queries and the other stepper look for them.
+/// Converts contacts to the form that frames, queries and the other stepper use.
 void publish_contacts(WorldState& s, std::span<const Contact> time_stepped) {
   std::vector<Contact> contacts = contact_list(s.event.contacts, s.bodies.bodies);
   contacts.insert(contacts.end(), time_stepped.begin(), time_stepped.end());
@@ -240,7 +242,7 @@ Status step_event(WorldState& state) {
   TickBackup& backup = state.before.backup;
   backup.take(state);
   begin_joints(state);
-  state.particle_contacts.clear();  // what they knew of forces is out of date
+  state.particle_contacts.clear();  // their stored impulses are out of date
   state.touching_particles.clear();
   Status status = run_event_stages(state);
   state.blocks.remove(state.bodies.bodies);

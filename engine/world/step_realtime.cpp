@@ -23,7 +23,8 @@
 namespace tumble {
 namespace {
 
-/// Forces of the tick before are gone: those on the active, and what single forces gave to others.
+/// Zeroes the force sums of the last tick: those of active bodies, and those of others that forces
+/// with anchors acted on.
 void clear_forces(WorldState& s) {
   std::vector<RigidBody>& bodies = s.bodies.bodies;
   const auto clear = [&bodies](uint32_t slot) {
@@ -42,7 +43,7 @@ void clear_forces(WorldState& s) {
       if (on.slot < bodies.size()) clear(on.slot);
 }
 
-/// By slot: not 0 where contacts or joints held a body in the tick before. Only springs ask.
+/// By slot: nonzero if contacts or joints held the body in the last tick. Only springs need it.
 void find_supported(WorldState& s) {
   s.workspace.supported.clear();
   const bool springs =
@@ -67,7 +68,7 @@ void sum_forces(WorldState& s) {
                    [&s](size_t slot) { return s.workspace.pressed_nets.pulls(slot); });
 }
 
-/// From here on the bodies end with the particles that collide; what acts on these acts on bodies.
+/// Appends the colliding particles to the bodies; forces on them then act on their blocks.
 Status append_colliding(WorldState& s) {
   const auto which = ParticleBlocks::Which::colliding;
   if (Status made = s.blocks.append(which, s.particle_ids, s.particles, s.bodies.bodies); !made)
@@ -85,7 +86,8 @@ Status append_colliding(WorldState& s) {
   return {};
 }
 
-/// Between ticks contacts of bodies only are where all look for contacts.
+/// Removes the blocks, and moves their contacts to a set of their own, so that between ticks the
+/// main set has contacts of bodies only.
 void withdraw_colliding(WorldState& s) {
   s.blocks.give_back(s.bodies.bodies, s.settings.tick.tick(), s.particles);
   if (s.blocks.empty()) {
@@ -102,7 +104,7 @@ void withdraw_colliding(WorldState& s) {
   s.blocks.remove(s.bodies.bodies);
 }
 
-/// Something other than contacts wakes a body at the beginning of a tick.
+/// Wakes a body at the beginning of a tick for a reason other than contacts.
 void rouse(WorldState& s, RigidBody& body) {
   if (body.asleep) s.roster.forget();
   wake(body);
@@ -118,7 +120,7 @@ void wake_tied_to_particles(WorldState& s, const SpringMesh& mesh) {
       if (RigidBody* b = s.bodies.find(node.body)) rouse(s, *b);
 }
 
-/// Particles never sleep, so neither does a body that a spring ties to one.
+/// Wakes bodies that springs connect to particles: particles never sleep.
 void wake_tied_to_particles(WorldState& s) {
   for (const auto& force : s.forces) {
     if (const auto* mesh = force ? std::get_if<SpringMeshDef>(&*force) : nullptr)
@@ -131,7 +133,7 @@ void wake_tied_to_particles(WorldState& s) {
   }
 }
 
-/// What rests in a field that changes by itself may not rest for long.
+/// Wakes bodies that rest in fields that change with time.
 void wake_in_changing_fields(WorldState& s) {
   const ForceContext context = s.force_context();
   for (const auto& force : s.forces)
@@ -141,8 +143,8 @@ void wake_in_changing_fields(WorldState& s) {
           [](const ParticleSystem&) {});
 }
 
-/// Whether the tick that was computed moved nothing, and the next would not: all that could move
-/// sleeps, and nothing will wake it.
+/// Whether the tick moved nothing, and the next one would not either: everything that can move is
+/// asleep, and nothing will wake it.
 bool moved_nothing(const WorldState& s) {
   if (!s.islands.islands.empty() || emission_to_come(s) || has_courses(s)) return false;
   for (const ParticleSystem& p : s.particles)
@@ -154,9 +156,9 @@ bool moved_nothing(const WorldState& s) {
                               [&s](uint32_t slot) { return is_active(s.bodies.bodies[slot]); });
 }
 
-/// Bodies that were made asleep look around once. Without contacts they would wake only when those
-/// that carry them come awake and have been looked at, a tick later, and by then may have fallen
-/// away from below.
+/// Lets bodies that were created asleep look for contacts once. Without contacts such a body would
+/// wake only a tick after the bodies that carry it have woken, and these may have fallen away from
+/// below it by then.
 void look_around(WorldState& s) {
   if (!s.laid_asleep) return;
   std::vector<bool> knows(s.bodies.bodies.size(), false);
@@ -174,7 +176,7 @@ void book_corrections(WorldState& s, LedgerLine line) {
   s.workspace.books.corrected(s.bodies.bodies, line, s.ledger, *s.crew);
 }
 
-/// Books between the stages of the bodies, and what moves besides them.
+/// Books between the stages of the bodies, and the stages of other things in between.
 class BetweenStages final : public TickListener {
  public:
   explicit BetweenStages(WorldState& state) : s_(state) {}
@@ -258,7 +260,7 @@ Status step_realtime(WorldState& state) {
   backup.take(state);
   begin_joints(state);
   state.event.particles.clear();
-  state.event.contacts.clear();  // what they knew of offsets and forces is out of date
+  state.event.contacts.clear();  // their stored offsets and forces are out of date
   state.event.time_stepped.clear();
   state.event.time_stepped_particles.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
@@ -275,7 +277,7 @@ Status step_realtime(WorldState& state) {
   if (status) status = end_joints(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);
-  // What looked around, or ended with particles, is something else in the next tick.
+  // The set of bodies that have looked for contacts, or of blocks, is different in the next tick.
   if (state.laid_asleep || !state.blocks.empty()) state.roster.forget();
   if (status) state.laid_asleep = false;
   state.still = status && moved_nothing(state);

@@ -39,7 +39,7 @@ void TickBackup::take(WorldState& s) {
     });
   };
   if (all) return keep(bodies.size(), [](size_t k) { return k; });
-  // The others are what they were when they were kept last.
+  // All others are unchanged since they were last copied.
   for (const std::span<const uint32_t> slots : {s.roster.active(), s.roster.settled()})
     keep(slots.size(), [slots](size_t k) { return slots[k]; });
 }

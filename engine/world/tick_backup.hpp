@@ -10,8 +10,9 @@ namespace tumble {
 
 struct WorldState;
 
-/// What a failed tick must give back: everything that the stages of a stepper change. Contacts
-/// remember by themselves what they were when the tick began. Its memory is kept from tick to tick.
+/// Copy of everything that the stages of a stepper change, to be restored if the tick fails.
+/// Contact sets keep their own copy of their state before the tick. Memory is reused from tick to
+/// tick.
 class TickBackup {
  public:
   void take(WorldState& state);

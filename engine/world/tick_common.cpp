@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// All that a mesh moves moves together: each with the next.
+/// Links each moving node of a mesh with the next, as a mesh moves as a whole.
 void link_mesh(const SpringMesh& mesh, const ForceContext& context, std::vector<BodyLink>& links) {
   uint32_t last = ParticleBlocks::no_slot;
   for (const Anchor& node : mesh.nodes) {
@@ -26,7 +26,7 @@ void link_mesh(const SpringMesh& mesh, const ForceContext& context, std::vector<
   }
 }
 
-/// Pairs of bodies that springs tie together.
+/// Adds the pairs of bodies that springs connect.
 void add_spring_links(WorldState& s, std::vector<BodyLink>& links) {
   for (const auto& force : s.forces) {
     const auto* spring = force ? std::get_if<SpringDef>(&*force) : nullptr;
@@ -41,7 +41,7 @@ void add_spring_links(WorldState& s, std::vector<BodyLink>& links) {
       link_mesh(*mesh->mesh, context, links);
 }
 
-/// Blocks of particles between which a potential acts move together: each with the next.
+/// Links each block with the next among particles that a pair potential couples.
 void link_paired(const WorldState& s, const ForceDef& force, std::vector<BodyLink>& links) {
   const auto* systems = paired_systems(force);
   if (!systems) return;
@@ -58,7 +58,7 @@ void link_paired(const WorldState& s, const ForceDef& force, std::vector<BodyLin
   }
 }
 
-/// One sum is enough where all is well: what is not finite survives it.
+/// One sum suffices in the usual case: a value that is not finite makes the sum not finite.
 bool finite(const RigidBody& b) {
   return std::isfinite(b.pose.x.sum() + b.pose.q.coeffs().sum() + b.v.sum() + b.omega.sum()) ||
          (b.pose.x.allFinite() && b.pose.q.coeffs().allFinite() && b.v.allFinite() &&

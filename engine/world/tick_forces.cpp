@@ -19,7 +19,7 @@ const ForceDef& at_moment(const ForceDef& def, double t) {
   return now;
 }
 
-/// Whether a force takes hold of particles that are no blocks.
+/// Whether a force is attached to a particle that is not a block.
 bool holds_particles(const ForceDef& def, const ForceContext& context) {
   const Anchors ends = anchors(def);
   return std::any_of(ends.begin(), ends.end(), [&](const Anchor& a) {
@@ -27,7 +27,7 @@ bool holds_particles(const ForceDef& def, const ForceContext& context) {
   });
 }
 
-/// Slots of the bodies and blocks that a force takes hold of, each once.
+/// Slots of the bodies and blocks that a force is attached to, each once.
 std::vector<uint32_t> held_slots(const ForceDef& def, const ForceContext& context) {
   std::vector<uint32_t> out;
   for (const Anchor& a : anchors(def))
@@ -67,7 +67,7 @@ TickForces::TickForces(WorldState& s, bool drives)
   for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
 }
 
-/// The first body that the force can move answers for it, once for all of its ends.
+/// Each force with anchors is evaluated once, with the first body that it can move.
 void TickForces::assign_anchored(uint32_t force) {
   uint32_t first = ~uint32_t{0};
   for (const uint32_t slot : held_slots(*state_.forces[force], state_.force_context()))
@@ -75,7 +75,7 @@ void TickForces::assign_anchored(uint32_t force) {
   if (first < anchored_.size()) anchored_[first].push_back(force);
 }
 
-/// Likewise of the joints on whose coordinates something acts.
+/// Likewise for the joints with drives.
 void TickForces::assign_drives() {
   for (uint32_t i = 0; i < state_.joints.ids.capacity(); ++i) {
     const Joint& joint = state_.joints.joints[i];
@@ -114,7 +114,7 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
       });
 }
 
-/// A force that ties something to particles that are no blocks: its share was found before.
+/// A force attached to particles that are not blocks acts by its share, which was computed before.
 void TickForces::hold(uint32_t force) {
   WorldState& s = state_;
   if (force >= s.workspace.books.shares.size()) return;
@@ -129,7 +129,7 @@ void TickForces::hold(uint32_t force) {
     s.particles[on.system].force[on.index] += on.force;
 }
 
-/// The share of fluids stands behind those of the forces.
+/// The share of fluids follows those of the forces.
 void TickForces::hold_fluids() {
   WorldState& s = state_;
   const auto fluids = uint32_t(s.forces.size());
@@ -141,7 +141,7 @@ void TickForces::hold_fluids() {
   }
 }
 
-/// A force that is no spring: its share shows where the sums were zero before.
+/// Share of a force that is not a spring: with the sums zeroed before, the sums are the share.
 void TickForces::share_alone(uint32_t force, std::span<const uint32_t> bodies,
                              ForceContext& context, ForceShare& share) const {
   const ForceDef& def = *state_.forces[force];
@@ -174,7 +174,7 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
   for (const uint32_t cause : causes(bodies)) {
     if (cause == 0) continue;
     const uint32_t force = cause - 1;
-    if (force > s.forces.size()) continue;  // the solver sees to joints
+    if (force > s.forces.size()) continue;  // forces of joints are up to the solver
     const bool fluids = force == s.forces.size();
     if (fluids || holds_particles(*s.forces[force], context)) {
       for (const Held& h : holds_)
@@ -191,7 +191,8 @@ void TickForces::share(std::span<const uint32_t> bodies, std::vector<ForceShare>
       s.bodies.bodies[on.slot].torque += on.torque;
     }
   NetPulls pulls;
-  pull_springs(springs.all(), context, {}, pulls);  // they see the other forces
+  pull_springs(springs.all(), context, {},
+               pulls);  // implicit, hence last
   springs.share(pulls, context, out);
 }
 
@@ -210,7 +211,7 @@ std::vector<uint32_t> TickForces::causes(std::span<const uint32_t> bodies) const
   return out;
 }
 
-/// What springs, or motors, of joints do.
+/// Effect of the springs, or of the motors, of joints.
 CauseEffect TickForces::drive_effect(bool motors, double t,
                                      std::span<const uint32_t> bodies) const {
   const std::span<RigidBody> all = state_.bodies.bodies;
@@ -227,7 +228,7 @@ CauseEffect TickForces::drive_effect(bool motors, double t,
           sum.add({push.dot(all[end].v) + turn.dot(all[end].omega), 0, push,
                    all[end].pose.x.cross(push) + turn});
         }
-        // A spring's energy is in its stretch.
+        // A spring's potential energy is a function of its stretch; only its damper loses energy.
         sum.lost += motors ? force * d.rate : d.force.damping * d.rate;
       });
     }
@@ -240,7 +241,7 @@ CauseEffect effect_on(const RigidBody& b, const Vec3& force, const Vec3& torque)
   return {force.dot(b.v) + torque.dot(b.omega), 0, force, b.pose.x.cross(force) + torque};
 }
 
-/// Power of the damper of a spring on the bodies that it moves.
+/// Power of a spring's damper on the bodies that it can move.
 double damping_power(const SpringDef& def, const ForceContext& context) {
   const auto a = locate(def.a, context), b = locate(def.b, context);
   if (!a || !b) return 0;
@@ -256,7 +257,7 @@ double damping_power(const SpringDef& def, const ForceContext& context) {
   return pull * ((moved(def.a) ? n.dot(a->v_world) : 0) - (moved(def.b) ? n.dot(b->v_world) : 0));
 }
 
-/// The same of all dampers of a mesh.
+/// The same for all dampers of a mesh.
 double damping_power(const SpringMeshDef& def, const ForceContext& context) {
   std::vector<MeshNode> nodes;
   locate(*def.mesh, context, nodes);
@@ -272,7 +273,7 @@ double damping_power(const SpringMeshDef& def, const ForceContext& context) {
   return sum;
 }
 
-/// What a force takes out of the energy that its potential does not hold, of the work it does.
+/// Of the power `work` of a force, the part that its potential does not account for.
 double lost_power(const ForceDef& def, double work, const ForceContext& context) {
   if (const auto* spring = std::get_if<SpringDef>(&def)) return damping_power(*spring, context);
   if (const auto* mesh = std::get_if<SpringMeshDef>(&def)) return damping_power(*mesh, context);
@@ -291,7 +292,7 @@ CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
       if (h.force == force && std::binary_search(bodies.begin(), bodies.end(), h.slot))
         sum.add(effect_on(s.bodies.bodies[h.slot], h.push, h.turn));
     if (fluids) sum.lost = sum.work;
-    return sum;  // a spring's energy is in its stretch, as far as it has no damper
+    return sum;  // the potential accounts for all but the damper
   }
   const ForceDef& def = at_moment(*s.forces[force], context.t);
   const std::vector<uint32_t> touched = held_slots(def, context);

@@ -4,27 +4,27 @@
 
 namespace tumble {
 
-/// The smooth forces of one tick at any moment of it, as the event stepper asks for them; bodies
-/// are also the blocks of particles behind them. Particles that have none move once a tick: their
-/// forces, and what they do to bodies, are found at its start and stay.
+/// The smooth forces at any moment of a tick, as the event stepper asks for them. Blocks of
+/// particles count as bodies. Other particles move once a tick: the forces on them, and their
+/// forces on bodies, are computed at the start of the tick and constant over it.
 class TickForces final : public ForceRates {
  public:
-  /// Sets the forces on all particles; the blocks must be there, and the shares of forces that hold
-  /// particles without blocks.
-  /// Without `drives` what acts along coordinates of joints is left out.
+  /// Computes the forces on all particles. Before this the blocks must be appended, and the shares
+  /// of forces attached to particles without blocks must be in the realtime books. Without
+  /// `drives`, forces along coordinates of joints are left out.
   explicit TickForces(WorldState& state, bool drives = true);
 
-  /// Sets force and torque of the given bodies at t seconds after the start of the tick. Groups of
-  /// bodies that no spring ties to each other may be asked for at the same time.
+  /// Sets force and torque of the given bodies at t seconds after the start of the tick. May be
+  /// called concurrently for groups of bodies that no spring connects.
   void operator()(double t, std::span<const uint32_t> bodies) const;
 
-  /// What each force does to the bodies, by its slot, where they are now and as the realtime
-  /// stepper applies forces: once for the tick, with a look ahead. Their force sums are that sum
-  /// afterwards, without gravity.
+  /// The force of each slot on the bodies at their present poses, as the realtime stepper applies
+  /// forces: constant over the tick, springs implicitly. Afterwards the force sums of the bodies
+  /// are the sum of these, without gravity.
   void share(std::span<const uint32_t> bodies, std::vector<ForceShare>& out) const;
 
-  /// Cause 0 is gravity, i + 1 the force in slot i, then those of fluids, of springs of joints, and
-  /// of their motors.
+  /// Cause 0 is gravity, i + 1 the force in slot i; then follow fluids, springs of joints, and
+  /// motors of joints.
   std::vector<uint32_t> causes(std::span<const uint32_t> bodies) const override;
   void rates(double t, std::span<const uint32_t> bodies, std::span<const uint32_t> causes,
              std::span<CauseEffect> out) const override;
@@ -44,15 +44,17 @@ class TickForces final : public ForceRates {
   struct Held {
     uint32_t force, slot;
     Vec3 push, turn;                  ///< [N], [N m]
-    Vec3 elastic_push, elastic_turn;  ///< of them what a potential explains
+    Vec3 elastic_push, elastic_turn;  ///< the parts that have a potential
   };
 
   WorldState& state_;
-  std::vector<uint32_t> fields_;                 ///< slots of forces on everything
-  std::vector<std::vector<uint32_t>> anchored_;  ///< by body slot: forces that it answers for
-  std::vector<std::vector<uint32_t>> driven_;    ///< by body slot: joints that it answers for
-  std::vector<Held> holds_;                      ///< by force
-  std::vector<std::pair<Vec3, Vec3>> held_;      ///< by slot: force and torque by such particles
+  /// Slots of forces without anchors, which act on everything.
+  std::vector<uint32_t> fields_;
+  std::vector<std::vector<uint32_t>> anchored_;  ///< by body slot: forces evaluated with this body
+  std::vector<std::vector<uint32_t>> driven_;    ///< by body slot: joints evaluated with this body
+  std::vector<Held> holds_;                      ///< constant forces on bodies, by force
+  /// By slot: sums of the constant forces and torques.
+  std::vector<std::pair<Vec3, Vec3>> held_;
 };
 
 }  // namespace tumble

@@ -4,13 +4,14 @@
 
 namespace tumble {
 
-/// What a tick writes down about how it was computed, for whoever asks by World::watch_with(). It
-/// changes nothing, and is no part of the state.
+/// Record of how a tick was computed, made on request (World::watch_with). It changes nothing, and
+/// is not part of the state.
 struct TickWatch {
-  BodyId body;                ///< null, or whose group's searches for events are wanted
-  EventSearchTrace searches;  ///< of the last tick; empty where no event stepper moved the body
-  ParticleSystemId fluid;     ///< null, or whose pressures are wanted
-  FluidTrace pressures;       ///< of the last sub-step of the last tick
+  BodyId body;  ///< null, or the body whose group's searches for events are recorded
+  /// Of the last tick; empty if the event stepper did not move the body.
+  EventSearchTrace searches;
+  ParticleSystemId fluid;  ///< null, or the system whose pressure solves are recorded
+  FluidTrace pressures;    ///< of the last sub-step of the last tick
 };
 
 }  // namespace tumble

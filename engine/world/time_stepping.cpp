@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// All that could move but these bodies.
+/// Holds all bodies that could move, except these.
 void hold_others(std::span<const RigidBody> bodies, std::span<const uint32_t> moving,
                  HeldBodies& held) {
   for (uint32_t slot = 0; slot < bodies.size(); ++slot)
@@ -50,16 +50,16 @@ class TimeSteppingBooks final : public TickListener {
   RealtimeBooks& books_;
 };
 
-/// Parts of a tick, in each of which contacts are found anew, and its sub-steps: what has many
-/// events in a tick goes and turns far in it for its size. What crosses its room in a tick, or
-/// turns more than once, has all of the parts. Boxes that meet what spins so overlap by .33, .17,
-/// .07 and .06 of their half side with 8, 16, 32 and 64 parts; with one sub-step in each, heaps of
-/// mixed sizes are left deeper than with two. Precise islands of the realtime stepper have a
-/// quarter of the sub-steps. [-]
+/// Number of parts of a tick, in each of which contacts are found anew, and of sub-steps in all: a
+/// group with many events in a tick moves and rotates far for its size. A group of which a body
+/// crosses its surroundings in a tick, or turns more than once, gets all parts. Boxes hit by a body
+/// that spins as fast overlap by .33, .17, .07 and .06 of their half side with 8, 16, 32 and 64
+/// parts; with one sub-step in each part, heaps of mixed sizes are left with deeper overlaps than
+/// with two. Precise islands of the realtime stepper have a quarter of the sub-steps. [-]
 constexpr int most_parts = 32, most_substeps = 64;
 
-/// Those of the world's realtime settings, solved as well as they can be: contacts as stiff as the
-/// sub-steps allow. Nothing sleeps.
+/// The world's realtime settings, at their most accurate: contacts as stiff as the sub-steps allow.
+/// Nothing sleeps.
 RealtimeSettings settings_of(const WorldState& s) {
   RealtimeSettings settings = s.settings.realtime;
   settings.precise = true;
@@ -75,7 +75,7 @@ RealtimeSettings settings_of(const WorldState& s) {
 WorldTimeStepping::WorldTimeStepping(WorldState& state, const TickForces& forces)
     : state_(state), forces_(forces), settings_(settings_of(state)) {}
 
-/// What an earlier call did has not happened; from here on the force sums are those of the tick.
+/// Undoes an earlier call in this tick; sets the force sums to those of the tick.
 void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   WorldState& s = state_;
   if (!ledger_) {
@@ -89,7 +89,7 @@ void WorldTimeStepping::start_again(std::span<const uint32_t> bodies) {
   s.ledger = *ledger_;
   s.joints.joints = joints_;
   s.joints.couplings = couplings_;
-  links_ = block_links(s);  // between those that are not held now
+  links_ = block_links(s);  // between the bodies that are not held now
   nets_.find_among(s, bodies);
   nets_.tie_blocks(s.bodies.bodies);
   forces_.share(bodies, books_.shares);

@@ -13,19 +13,19 @@ namespace tumble {
 
 struct WorldState;
 
-/// How groups in which events crowd finish a tick of the event stepper: by the stages of the
+/// Completes the tick of groups that are too expensive for the event stepper, by the stages of the
 /// realtime tick, which step over all events of a sub-step at once. Contacts and friction are
-/// implicit, as inequalities between impulses and the velocities at the end of the sub-step, and
-/// are solved by sweeps: a time-stepping scheme of complementarity kind (Moreau 1988, Stewart and
-/// Trinkle 1996; Acary and Brogliato 2008, chapter 10). It needs no order of events, which is why
-/// it always ends, and gives up their exact times.
+/// implicit, as complementarity conditions between impulses and the velocities at the end of the
+/// sub-step, and are solved by sweeps (projected Gauss-Seidel): a time-stepping scheme (Moreau
+/// 1988, Stewart and Trinkle 1996; Acary and Brogliato 2008, chapter 10). Since it resolves no
+/// order of events it always terminates, but their exact times are lost.
 class WorldTimeStepping final : public TimeStepping {
  public:
-  /// For one tick, at whose start the bodies are; blocks of particles are among them.
+  /// For one tick; the bodies are at its start, blocks of particles among them.
   WorldTimeStepping(WorldState& state, const TickForces& forces);
 
   Status advance(std::span<const uint32_t> bodies) override;
-  /// Of the bodies that were moved, in the form in which worlds keep contacts.
+  /// Contacts of the bodies that were moved, in the form of the realtime stepper.
   std::span<const Contact> contacts() const { return std::as_const(contacts_).contacts(); }
 
  private:
@@ -38,9 +38,9 @@ class WorldTimeStepping final : public TimeStepping {
   PairFilter apart_;
   std::vector<BodyLink> links_;
   ContactSet contacts_;
-  PressedNets nets_;  ///< of what is moved: their springs are solved with its contacts
+  PressedNets nets_;  ///< of the moved bodies: their springs are solved with the contacts
   RealtimeBooks books_;
-  // As they were at the start of the tick, for each advance().
+  // State at the start of the tick, restored by each advance().
   std::optional<Ledger> ledger_;
   std::vector<Joint> joints_;
   std::vector<JointCoupling> couplings_;

@@ -34,13 +34,13 @@ Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<Shape
 
 namespace {
 
-/// Something else than a tick changes the state.
+/// To be called when something other than a tick changes the state.
 void note_change(WorldState& s) {
   s.still = false;
   s.frames.due = FrameState::Due::make;
 }
 
-/// Afterwards the measures are up to date.
+/// Applies the queued commands; afterwards the measures are up to date.
 Status apply_queue(WorldState& s) {
   if (s.queue.empty()) return {};
   std::vector<Command> queue;
@@ -53,7 +53,7 @@ Status apply_queue(WorldState& s) {
   return {};
 }
 
-/// The tick after its commands. A still tick may be repeated if `repeatable`.
+/// A tick after its commands were applied. If `repeatable`, a still state is repeated.
 Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
   const CourseSupply supply(s);
   if (Status done = follow_courses(s); !done) return done;
@@ -77,7 +77,7 @@ Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
     if (!stepped) {
       --s.tick;
       s.before.backup.restore(s);
-      s.laid_asleep = true;  // bodies made asleep have not looked for contacts yet
+      s.laid_asleep = true;  // bodies created asleep have not looked for contacts yet
     }
   }
   if (!stepped) {
@@ -103,7 +103,7 @@ Status World::apply_commands() {
   if (s.queue.empty()) return {};
   note_change(s);
   if (Status status = apply_queue(s); !status) return status;
-  s.particle_detection.clear();  // they may name what is gone
+  s.particle_detection.clear();  // its contacts may name particles that no longer exist
   return {};
 }
 
@@ -113,7 +113,7 @@ Status World::apply_commands() {
 Result<StepReport> World::step() {
   WorldState& s = *state_;
   if (s.stop && s.stop->requested()) return stopped_error();
-  if (s.watch) {  // what an earlier tick wrote down is not of this one
+  if (s.watch) {  // records of earlier ticks
     s.watch->searches = {};
     s.watch->pressures = {};
   }

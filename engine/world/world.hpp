@@ -13,8 +13,8 @@
 
 namespace tumble {
 
-/// A moment of a world's history: its state and the commands that led to it. Kept, it can be come
-/// back to after the history took another course.
+/// A moment of a world's history: its state and the commands that led to it. A world can return to
+/// it even after its history has taken another course.
 struct Moment {
   Bytes snapshot;  ///< without geometry
   ReplayLog log;
@@ -25,7 +25,7 @@ struct StepReport {
   StepStats stats;
 };
 
-/// What a world query found.
+/// A hit of World::ray_cast.
 struct WorldRayHit {
   BodyId body;
   uint32_t shape = 0;
@@ -33,14 +33,14 @@ struct WorldRayHit {
   Vec3 x_world, normal;
 };
 
-/// Two bodies that are partly in the same place.
+/// Two bodies that overlap.
 struct Overlap {
   BodyId a, b;
   double depth = 0;  ///< of their deepest contact [m]
 };
 
-/// Force and torque of a joint on its body B at one moment, world axes; A feels the reverse at the
-/// same point.
+/// Force and torque of a joint on its body B at one moment, world axes; A receives the opposite
+/// force and torque at the same point.
 struct JointReaction {
   JointId id;
   Vec3 x_world = Vec3::Zero();  ///< B's anchor [m]
@@ -54,9 +54,9 @@ struct TickWatch;
 class StopFlag;
 struct WorldState;  // engine/world/state.hpp; for the files of engine/world only
 
-/// A simulated world: bodies, joints, particles, forces and the fixed tick. All change from outside
-/// is a Command, queued and applied in order at the start of the next step (or by apply_commands),
-/// and written to the replay log. Two worlds share nothing but immutable shapes.
+/// A simulated world: bodies, joints, particles and forces, advanced in fixed ticks. Every change
+/// from outside is a Command, which is queued, applied in order at the start of the next step (or
+/// by apply_commands), and written to the replay log. Worlds share nothing but immutable shapes.
 class World {
  public:
   /// A world with nothing in it; `shapes` may be shared between worlds to save memory.
@@ -69,59 +69,61 @@ class World {
   // -- commands: validated now, applied at the start of the next step; ids are valid at once ------
   Result<BodyId> create_body(BodyDef def);
   Status destroy_body(BodyId id);
-  /// Replaces the definition of a live body: shapes, materials, mass, kind, pose, velocities.
-  /// Change what body_def() gives. Joints and forces at the body stay where they are in its frame.
+  /// Replaces the definition of a live body: shapes, materials, mass, kind, pose, velocities. Start
+  /// from body_def(). Joints and forces attached to the body keep their anchors in its frame.
   Status set_body(BodyId id, BodyDef def);
-  /// Places the definition's body frame; the viewer does not interpolate across it.
+  /// Sets the pose of the definition's body frame; viewers do not interpolate across the change.
   Status set_pose(BodyId id, const Pose& body_frame);
   Status set_velocity(BodyId id, const Vec3& v, const Vec3& omega);
   /// Impulse [N s] at a world point.
   Status apply_impulse(BodyId id, const Vec3& impulse, const Vec3& x_world);
   Result<ForceId> create_force(ForceDef def);
-  /// Replaces the definition of a live force (the mouse moves its target so).
+  /// Replaces the definition of a live force; the mouse moves its target this way.
   Status set_force(ForceId id, ForceDef def);
   Status destroy_force(ForceId id);
-  /// Destroyed with either of its bodies.
+  /// A joint is destroyed with either of its bodies.
   Result<JointId> create_joint(JointDef def);
   /// Replaces the definition of a live joint.
   Status set_joint(JointId id, JointDef def);
   Status destroy_joint(JointId id);
   Result<ParticleSystemId> create_particles(ParticleSystemDef def);
   Status destroy_particles(ParticleSystemId id);
-  /// Replaces the definition of a live system; whatever names it stays. It begins anew with the
-  /// particles of the definition, whose numbers are given again. With `keep` those that it has stay
-  /// and move on, and take mass, radius, colour and life of the one of the definition that has
-  /// their number, if one has.
+  /// Replaces the definition of a live system; its id stays valid. The system begins anew with the
+  /// particles of the definition, whose ids count from 1 again. With `keep` its particles stay and
+  /// move on, and take mass, radius, colour and life from the particle of the definition with the
+  /// same id, if there is one.
   Status set_particles(ParticleSystemId id, ParticleSystemDef def, bool keep = false);
-  /// Emits from the next tick on; the emitters that its events name exist already, so that events
-  /// never go round in a circle.
+  /// Emits from the next tick on. Emitters that its events name must exist already, so that events
+  /// cannot form a cycle.
   Result<EmitterId> create_emitter(EmitterDef def);
-  /// Replaces the definition of a live emitter: times count from when it was made, and what it has
-  /// made by then is made. Error also where its events would lead back to it.
+  /// Replaces the definition of a live emitter: times still count from its creation, and what the
+  /// new definition would have emitted before now is not emitted. Error also if its events would
+  /// lead back to it.
   Status set_emitter(EmitterId id, EmitterDef def);
-  /// What it made stays.
+  /// What it emitted stays.
   Status destroy_emitter(EmitterId id);
   Result<SinkId> create_sink(SinkDef def);
   Status destroy_sink(SinkId id);
-  /// Measures from then on, and changes nothing; what it measures may go before it.
+  /// Measures from then on; what it measures may be destroyed before it.
   Result<SensorId> create_sensor(SensorDef def);
   Status destroy_sensor(SensorId id);
   Status set_settings(const WorldSettings& settings);
-  /// Queues a command of a replay log as it stands.
+  /// Queues a command of a replay log unchanged.
   Status submit(Command command);
-  /// Applies what is queued without stepping; the frame shows it.
+  /// Applies the queued commands without stepping; the next frame shows their effect.
   Status apply_commands();
 
   // -- time ---------------------------------------------------------------------------------------
-  /// Advances by one tick. After an error the world is back at the last good tick. One of them is
-  /// `cancelled`: see stop_with().
+  /// Advances by one tick. After an error the world is in the state of the last good tick. One
+  /// possible error is `cancelled`: see stop_with().
   Result<StepReport> step();
-  /// What stops a tick: once the flag is requested, by any thread or a signal handler, the tick
-  /// under way ends within a tenth of a second, and so do later ones at once, until it is cleared.
-  /// Commands wait for the next tick, or were carried out before this one. Null: nothing does.
+  /// Sets the flag that stops a tick: when it is requested, by any thread or a signal handler, the
+  /// tick in progress ends within a tenth of a second, and later ones end at once until it is
+  /// cleared. Queued commands either wait for the next tick, or were applied before this one. Null:
+  /// ticks cannot be stopped.
   void stop_with(const StopFlag* flag);
-  /// From then on each tick writes down how it was computed, in what must live as long; null: none
-  /// does.
+  /// From then on each tick records how it was computed in `watch`, which must outlive its use;
+  /// null: none does.
   void watch_with(TickWatch* watch);
   uint64_t tick() const;
   double time() const;  ///< [s]
@@ -129,42 +131,43 @@ class World {
   void set_threads(int threads);  ///< 0: one per core; results do not depend on it
 
   // -- observation --------------------------------------------------------------------------------
-  /// The state after the last step or apply_commands; never null, may be kept for ever. Made at
-  /// the first question after a change: who steps without looking does not pay for it. Any number
-  /// of threads may ask while none steps.
+  /// The state after the last step or apply_commands; never null, and may be kept as long as one
+  /// likes. Made at the first call after a change, so that steps without a viewer do not pay for
+  /// it. Any number of threads may call while no step runs.
   std::shared_ptr<const Frame> frame() const;
   uint64_t state_hash() const;
-  /// What the arrays of the world and of the realtime stepper hold now, without the broad phase's
-  /// own and without geometry, which worlds share.
+  /// Memory that the arrays of the world and of the realtime stepper hold now, without that of the
+  /// broad phase, and without geometry, which worlds share.
   MemoryUse memory_use() const;
   /// The shapes of frame() for rays, casts, overlaps and nearest points (queries/query_scene.hpp).
-  /// Made at the first question after a change and then shared; may be kept for ever. Any number
-  /// of threads may ask while none steps.
+  /// Made at the first call after a change and then shared; may be kept. Any number of threads may
+  /// call while no step runs.
   std::shared_ptr<const QueryScene> queries() const;
-  /// Nearest hit along a ray (direction need not be unit); bodies only. Nothing for what
-  /// queries()->ray() refuses, and for a direction of zero.
+  /// Nearest hit along a ray, on bodies only; the direction need not be unit. Empty if
+  /// queries()->ray() would return an error, and for a direction of zero.
   std::optional<WorldRayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                       double max_distance) const;
-  /// Pairs of bodies that overlap now by more than `deeper` [m], deepest first; found anew.
+  /// Pairs of bodies that overlap now by more than `deeper` [m], deepest first; computed by this
+  /// call.
   std::vector<Overlap> overlaps(double deeper) const;
-  /// What every contact of frame() claims: gap, velocities, force, place in the friction cone,
-  /// residuals, and under the event stepper the balance of forces on every body. Error: the forces
-  /// cannot be solved for.
+  /// The conditions that every contact of frame() satisfies: gap, velocities, force, position in
+  /// the friction cone, residuals, and under the event stepper the balance of forces on every body.
+  /// Error: the forces cannot be solved for.
   Result<ContactCertificates> contact_certificates() const;
-  /// The problem of contact forces, with cones of friction, of the bodies that touch this one or
-  /// are tied to it by joints, as the event stepper poses it at this moment, and its answer. Error:
-  /// another stepper, a body that is gone, or forces of which not even the problem is known.
+  /// The contact force problem, with friction cones, of the group of bodies connected with this one
+  /// by contacts or joints, as the event stepper poses it at this moment, and its solution. Error:
+  /// another stepper, a body that does not exist, or a problem that cannot be posed.
   Result<GroupForceProblem> contact_force_problem(BodyId body) const;
-  /// What every live joint does to its bodies at this moment, in the order of their slots: at the
-  /// present poses and velocities, under gravity, forces and contacts as they are now, before the
-  /// first step too. Contacts are those of the last tick: under the event stepper their forces are
-  /// solved for along with the joints', under realtime they press with the means over that tick.
-  /// Where joints share a load in many ways it is shared as if all were equally stiff. Error: the
-  /// forces cannot be solved for.
+  /// Force and torque of every live joint at this moment, in the order of their slots: at the
+  /// present poses and velocities, under the present gravity, forces and contacts; also before the
+  /// first step. Contacts are those of the last tick: under the event stepper their forces are
+  /// solved for together with those of the joints, under realtime they act with their mean forces
+  /// over that tick. Where the forces of joints are not unique, the load is shared as if all joints
+  /// were equally stiff. Error: the forces cannot be solved for.
   Result<std::vector<JointReaction>> joint_reactions() const;
   /// Live state of a body, or null; valid until the next non-const call.
   const RigidBody* body(BodyId id) const;
-  /// The definition that a body was made from, with its current pose and velocities.
+  /// The definition that a body was created from, with its current pose and velocities.
   std::optional<BodyDef> body_def(BodyId id) const;
   BodyId find_body(std::string_view name) const;  ///< null id when there is none
   const ForceDef* force(ForceId id) const;
@@ -178,16 +181,16 @@ class World {
   // -- snapshot and replay
   // --------------------------------------------------------------------------
   /// The whole state as bytes in named, versioned sections. Without geometry, meshes and hulls are
-  /// stored by content hash and must be in the shape store of the loading world.
+  /// stored as content hashes, and the shape store of the loading world must have them.
   Bytes save(bool with_geometry = true) const;
   /// Replaces the whole state, which becomes the origin of a new replay log; on failure the world
   /// is as before.
   Status load(std::span<const std::byte> snapshot);
-  /// Goes back to a snapshot of this world's own past; the replay log forgets what came after it.
+  /// Goes back to a snapshot of this world's own past; the replay log is cut off after it.
   Status rewind(std::span<const std::byte> snapshot);
   Moment moment() const;
-  /// Goes to a moment of this world's history, also on a course that has been left since; the
-  /// replay log is the one of that moment. On failure the world is as before.
+  /// Goes to a moment of this world's history, also of a course that it has left since; the replay
+  /// log becomes the one of that moment. On failure the world is unchanged.
   Status restore(const Moment& moment);
   /// Every command since the origin with the tick at which it was applied.
   const ReplayLog& replay_log() const;

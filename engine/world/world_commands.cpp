@@ -1,5 +1,5 @@
-// The front door of commands: each is checked against what will exist when it is applied, and waits
-// in the queue for the next tick.
+// The public functions for commands: each command is checked against what will exist when it is
+// applied, and is queued for the next tick.
 #include "engine/math/unit_quaternion.hpp"
 #include "engine/world/state.hpp"
 #include "engine/world/world.hpp"
@@ -134,7 +134,7 @@ Result<JointId> World::create_joint(JointDef def) {
 
 Status World::set_joint(JointId id, JointDef def) {
   if (!state_->reserved.joints.contains(id)) return stale("joint");
-  // A definition that names no joint means itself, and is looked at as such.
+  // A coupling without a joint refers to the joint itself, so the check is of that form.
   for (CoordinateDrive& drive : def.drives)
     if (drive.couple && drive.couple->joint == id) drive.couple->joint = {};
   if (Status s = validate_reserved(def, state_->reserved); !s) return s;
@@ -151,7 +151,7 @@ Status World::destroy_joint(JointId id) {
 
 namespace {
 
-/// The newest definition of commands of these kinds that wait in the queue, or null.
+/// The newest definition in queued commands of these kinds, or null.
 template <class Create, class Set, class Id>
 const auto* queued_def(const WorldState& s, Id id) {
   const decltype(Create::def)* found = nullptr;
@@ -163,7 +163,7 @@ const auto* queued_def(const WorldState& s, Id id) {
   return found;
 }
 
-/// Whether contacts of a system that will exist are looked for.
+/// Whether contacts of a system's particles will be detected.
 bool detects(const WorldState& s, ParticleSystemId id) {
   if (const auto* def = queued_def<CreateParticles, SetParticles>(s, id))
     return def->detect || def->fast;
@@ -171,7 +171,7 @@ bool detects(const WorldState& s, ParticleSystemId id) {
   return s.particles[id.index].detect || s.particles[id.index].fast;
 }
 
-/// What an emitter will be, or null.
+/// The definition that an emitter will have, or null.
 const EmitterDef* emitter_to_be(const WorldState& s, EmitterId id) {
   if (const auto* def = queued_def<CreateEmitter, SetEmitter>(s, id)) return def;
   return s.emitters.ids.contains(id) ? s.emitters.list[id.index].def.get() : nullptr;
@@ -189,7 +189,8 @@ void for_emitters_to_be(const WorldState& s, const F& f) {
       f(create->id, *emitter_to_be(s, create->id));
 }
 
-/// Emitters whose events are collisions of a system need it to look for them.
+/// Error if emitters have events by collisions of a system whose contacts would no longer be
+/// detected.
 Status still_seen(const WorldState& s, ParticleSystemId id, const ParticleSystemDef& def) {
   if (def.detect || def.fast) return {};
   Status fine;
@@ -204,7 +205,7 @@ Status still_seen(const WorldState& s, ParticleSystemId id, const ParticleSystem
   return fine;
 }
 
-/// Whether the events of an emitter lead to another one.
+/// Whether the events of an emitter lead to another one, directly or not.
 bool leads_to(const WorldState& s, const EmitterDef& from, EmitterId to) {
   std::vector<EmitterId> seen;
   const auto see = [&](const EmitterDef& def) {
@@ -343,7 +344,7 @@ Status World::set_settings(const WorldSettings& settings) {
 
 namespace {
 
-/// Repeats a logged command through the front door, and checks that it gets the same id.
+/// Queues a logged command by the public functions, and checks that it is given the same id.
 struct Resubmit {
   World& world;
 

@@ -8,17 +8,17 @@ namespace tumble {
 
 class World;
 
-/// What a world is made from.
+/// The definition of a world.
 struct WorldDef {
   WorldSettings settings;
-  int threads = 0;  ///< 0: one per core; never part of the state
-  LogSink log;      ///< receives warnings, within a tick: it must not ask for a frame
+  int threads = 0;  ///< 0: one per core; not part of the state
+  LogSink log;      ///< receives warnings during a tick; it must not ask for a frame
 };
 
 }  // namespace tumble
 
-/// Whoever only holds a world needs to know no more of it than its name: what holds one does not
-/// read world.hpp, and is not compiled again with each change of that.
+/// Lets a file hold a World by unique_ptr without including world.hpp, so that it is not compiled
+/// again with each change of that.
 template <>
 struct std::default_delete<tumble::World> {
   void operator()(tumble::World* world) const noexcept;  ///< in world.cpp

@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-/// Newly resting proxies wait until they are this many and a sixteenth of the still tree.
+/// The still tree is rebuilt when the waiting proxies are at least this many and a sixteenth of it.
 constexpr size_t least_waiting = 64;
 
 bool same(const Aabb& a, const Aabb& b) {
@@ -28,7 +28,7 @@ void AabbTreeBroadPhase::take_out(uint32_t id) {
   place_[id] = Place::none;
 }
 
-/// What rests, and is nowhere yet.
+/// Adds a resting proxy that is in no tree yet.
 void AabbTreeBroadPhase::let_wait(std::span<const BroadPhaseProxy> proxies, uint32_t id) {
   const bool placed = can_be_placed(proxies[id].bounds);
   place_[id] = placed ? Place::waiting : Place::large;
@@ -36,8 +36,8 @@ void AabbTreeBroadPhase::let_wait(std::span<const BroadPhaseProxy> proxies, uint
   (placed ? waiting_ids_ : large_ids_).push_back(id);
 }
 
-/// Finds the members of the still tree among the proxies: at their old index, or moved along by as
-/// many as there are more proxies now (something was made or removed before them).
+/// Finds the members of the still tree among the proxies: at their old index, or shifted by the
+/// change in the number of proxies (if some were created or removed before them).
 void AabbTreeBroadPhase::follow_still(std::span<const BroadPhaseProxy> proxies) {
   const auto shift = int64_t(proxies.size()) - int64_t(place_.size());
   place_.assign(proxies.size(), Place::none);

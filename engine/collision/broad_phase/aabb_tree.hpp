@@ -4,12 +4,12 @@
 
 namespace tumble {
 
-/// Trees of boxes. What rests with unchanged bounds lives in the still tree, which is not touched
-/// from call to call; what moves is built anew in every call, which is faster than moving leaves
-/// about as soon as many of them move. A leaf whose bounds change, or that is gone, is taken out of
-/// the still tree at once; newly resting ones wait in a tree of their own until they are a
-/// sixteenth of the still tree, which is then built anew (the logarithmic method of Bentley and
-/// Saxe, 1980).
+/// Bounding volume trees. Proxies that rest with unchanged bounds are in the still tree, which is
+/// not visited between calls; a tree of the moving ones is built in every call, which is faster
+/// than moving leaves as soon as many of them move. A leaf whose bounds change, or that is removed,
+/// is taken out of the still tree at once. Proxies that have come to rest are first collected in a
+/// waiting tree, until they number a sixteenth of the still tree, which is then rebuilt with them
+/// (the logarithmic method of Bentley and Saxe, 1980).
 class AabbTreeBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
@@ -30,13 +30,14 @@ class AabbTreeBroadPhase final : public BroadPhase {
   void compare(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs);
 
   PackedTree still_, waiting_, moving_;
-  Vec3 origin_ = Vec3::Zero();      ///< of the still tree, and so of all
+  Vec3 origin_ = Vec3::Zero();      ///< for packing, of all trees
   std::vector<Aabb> still_bounds_;  ///< by position in the still tree
-  size_t still_count_ = 0;          ///< not taken out
+  size_t still_count_ = 0;          ///< without those taken out
   std::vector<Place> place_;        ///< by proxy
-  std::vector<uint32_t> position_;  ///< by proxy: in the still tree
+  std::vector<uint32_t> position_;  ///< by proxy: position in the still tree
   uint64_t last_news_ = 0;          ///< ProxyNews::number; 0 if the last call had none
-  std::vector<uint32_t> moving_ids_, waiting_ids_, large_ids_;  ///< the last two of what rests
+  /// Waiting and large ones are at rest.
+  std::vector<uint32_t> moving_ids_, waiting_ids_, large_ids_;
   bool waiting_changed_ = false;
   LargeBounds large_;
   PairCollector collector_;

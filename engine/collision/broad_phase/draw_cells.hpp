@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// A colour for each level of a grid or depth of a tree; neighbours differ, and they come again
+/// Colour of a level of a grid or depth of a tree; neighbouring levels differ, and colours repeat
 /// after eight.
 Vec4f level_colour(size_t level);
 

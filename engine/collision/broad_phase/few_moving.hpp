@@ -3,11 +3,12 @@
 
 namespace tumble {
 
-/// What a grid, which enters all bounds anew in every call, leaves to trees: lists of which little
-/// moves.
+/// Used by grids, which enter all bounds anew in every call: lists of which few proxies move are
+/// left to trees.
 class FewMoving {
  public:
-  /// Whether the trees are to find the pairs of this call; until the next, or skip(), they did.
+  /// Whether the trees are to find the pairs of this call; took() then tells that they did, until
+  /// the next call or skip().
   bool takes(size_t proxies, const ProxyNews& news) {
     took_ = proxies >= least && news.moving.size() < proxies / 4;
     return took_;
@@ -27,7 +28,8 @@ class FewMoving {
   }
 
  private:
-  static constexpr size_t least = 256;  ///< fewer are entered as fast
+  /// For fewer, the grid is as fast.
+  static constexpr size_t least = 256;
 
   AabbTreeBroadPhase trees_;
   bool took_ = false;

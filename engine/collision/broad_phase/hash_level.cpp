@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// floor() of what fits into int64_t, without a call.
+/// floor() of a value that fits into int64_t, without a library call.
 int64_t floor_of(double x) {
   const auto t = int64_t(x);
   return t - int64_t(x < double(t));
@@ -18,8 +18,8 @@ int64_t floor_of(double x) {
 }  // namespace
 
 double grid_size(const Aabb& b) {
-  // Four roundings, each at most an epsilon of the coordinate, lie between two corners and the
-  // difference of their cell numbers.
+  // Four roundings, each of at most an epsilon of the coordinate, affect the difference between the
+  // cell numbers of two corners.
   const double far = b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()).maxCoeff();
   return b.extent().maxCoeff() + 16 * std::numeric_limits<double>::epsilon() * far;
 }
@@ -51,8 +51,8 @@ void HashLevel::choose_slots(size_t count) {
     return;
   }
   mask_ = int64_t(std::bit_ceil(std::max<uint64_t>(2 * count, 128))) - 1;
-  // Odd numbers far from simple fractions of any table; in the rare case that near slots meet, the
-  // next ones, and at last 5 and 25, which are always right.
+  // Odd numbers far from simple fractions of any table size; in the rare case that nearby slots
+  // collide, the next ones, and finally 5 and 25, which never fail.
   uint32_t y = 0x9e3779b1u, z = 0x85ebca77u;
   for (int attempt = 0; attempt < 8; ++attempt, y += 0x632be5aau, z += 0x27d4eb2eu) {
     stride_y_ = int64_t(y) & mask_;
@@ -79,7 +79,7 @@ void HashLevel::build(std::span<const BroadPhaseProxy> proxies, std::span<const 
       slots_[i] = uint32_t(slot_of(cell_of(proxies[members[i]].bounds.min)));
   });
   for (const uint32_t slot : slots_) ++starts_[slot];
-  // Ends of the slots, which the entries then count down to the starts.
+  // Ends of the slots; the insertion below decrements them to the starts.
   for (size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
   set_.resize(members.size());
   for (size_t i = members.size(); i-- > 0;) slots_[i] = --starts_[slots_[i]];
@@ -109,8 +109,8 @@ void HashLevel::pairs_within(PairCollector& out, Crew* crew) const {
 }
 
 void HashLevel::pairs_of_slots(size_t first_slot, size_t last_slot, PairCollector& out) const {
-  // Half of the 26 neighbours: x + 1, and the rows of (y + 1, z), (y - 1, z + 1), (y, z + 1),
-  // (y + 1, z + 1). The other half is covered from there.
+  // Half of the 26 neighbours: x + 1, and the rows of (y + 1, z), (y - 1, z + 1), (y, z + 1), (y +
+  // 1, z + 1). The other half is tested from those cells.
   const std::array<int64_t, 4> rows{stride_y_, stride_z_ - stride_y_, stride_z_,
                                     stride_z_ + stride_y_};
   for (auto slot = int64_t(first_slot); slot < int64_t(last_slot); ++slot) {

@@ -4,15 +4,15 @@
 
 namespace tumble {
 
-/// Whether bounds are such that a grid or a tree can place them: not empty, and within 10^30 m, so
-/// that sums and differences stay finite.
+/// Whether bounds can be entered in a grid or tree: not empty, and within 10^30 m, so that sums and
+/// differences stay finite.
 inline bool can_be_placed(const Aabb& b) {
   constexpr double end = 1e30;
   return !b.empty() && (b.min.array() >= -end).all() && (b.max.array() <= end).all();
 }
 
-/// A short list of bounds that a grid or tree does not take: infinite or far larger than the rest.
-/// Compared one by one.
+/// A short list of bounds that are not entered in a grid or tree, as they are infinite or far
+/// larger than the rest. They are compared one by one.
 class LargeBounds {
  public:
   void clear() { set_.resize(0); }
@@ -36,7 +36,8 @@ class LargeBounds {
   PackedSet set_;
 };
 
-/// Centre of the bounds that can be placed: the origin about which single precision loses least.
+/// Centre of the bounds that can be placed: relative to it, packing in single precision loses
+/// least.
 inline Vec3 packing_origin(std::span<const BroadPhaseProxy> proxies) {
   Aabb all;
   for (const BroadPhaseProxy& p : proxies)

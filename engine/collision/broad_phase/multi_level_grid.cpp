@@ -9,15 +9,16 @@
 namespace tumble {
 namespace {
 
-/// A level of fewer bounds than this is cheaper compared one by one.
+/// With fewer bounds than this a level is slower than comparing them one by one.
 constexpr size_t least_members = 8;
-/// A finer octave joins a coarser one that has this many times its members: it gains little from
-/// smaller cells, and would cost one more level to look into.
+/// A finer octave is merged into a coarser one with this many times its members: it would gain
+/// little from smaller cells, and cost one more level to look into.
 constexpr size_t outnumbered = 4;
-/// With more levels to look into per member than this, on the average, the nested cells are walked.
+/// With more lookups in coarser levels per member than this, on average, the nested cells are used
+/// as a tree.
 constexpr size_t most_lookups = 1;
 
-/// Of a size relative to the largest: half-open upwards, (1/2, 1] being octave 0.
+/// Octave of a size relative to the largest; octave 0 is (1/2, 1].
 uint8_t octave_of(double relative) {
   const double ratio = std::min(relative, 1.0);
   const int finer = ratio > 0 ? -std::ilogb(ratio) : int(MultiLevelGridBroadPhase::octaves);
@@ -62,7 +63,7 @@ void MultiLevelGridBroadPhase::sort_by_size(std::span<const BroadPhaseProxy> pro
 void MultiLevelGridBroadPhase::join_octaves(std::span<const BroadPhaseProxy> proxies) {
   for (size_t k = 0; k < octaves; ++k) {
     Octave& o = octaves_[k];
-    // Only the next octave may join, so that a cell never holds far smaller bounds.
+    // Only the next octave is merged, so that no cell has far smaller bounds.
     if (k + 1 < octaves && octaves_[k + 1].members.size() * outnumbered <= o.members.size()) {
       Octave& finer = octaves_[k + 1];
       o.members.insert(o.members.end(), finer.members.begin(), finer.members.end());

@@ -6,14 +6,14 @@
 
 namespace tumble {
 
-/// Hash grids of several cell sizes (Coutinho §2.4.2): bounds go to the level of their size, where
-/// the cell is at most twice as large, and are compared there and with the levels of larger cells,
-/// so that work does not grow with the ratio of sizes. Levels of few bounds join the next coarser
-/// one; few coarse ones, and infinite ones, are compared one by one.
+/// Hash grids of several cell sizes (Coutinho §2.4.2): bounds are entered in the level of their
+/// size, whose cell is at most twice as large, and are compared there and with the levels of larger
+/// cells, so that the work does not grow with the ratio of sizes. A level of few bounds is merged
+/// into the next coarser one; few coarse bounds, and infinite ones, are compared one by one.
 ///
-/// Where sizes are so many that most lookups in coarser levels would find nothing, the levels are
-/// taken as what they are, cells nested in cells: the occupied ones, in the order of the Morton
-/// curve through them, are a tree, and walking it skips whatever is empty.
+/// With so many sizes that most lookups in coarser levels would find nothing, the nested cells are
+/// used as a tree instead: the occupied cells, sorted along the Morton curve through them, form a
+/// tree, and its traversal skips empty space.
 class MultiLevelGridBroadPhase final : public BroadPhase {
  public:
   static constexpr size_t octaves = 64;
@@ -26,13 +26,13 @@ class MultiLevelGridBroadPhase final : public BroadPhase {
  private:
   void sort_by_size(std::span<const BroadPhaseProxy> proxies);
   void join_octaves(std::span<const BroadPhaseProxy> proxies);
-  /// Whether members would look into more than one coarser level on the average.
+  /// Whether members would look into more than one coarser level on average.
   bool many_lookups() const;
   void compare_nested(std::span<const BroadPhaseProxy> proxies);
   void build_levels(std::span<const BroadPhaseProxy> proxies);
   void compare_levels(std::span<const BroadPhaseProxy> proxies);
 
-  /// Bounds of one factor of two in size, octave 0 the largest.
+  /// Bounds whose sizes are within a factor of two; octave 0 has the largest.
   struct Octave {
     std::vector<uint32_t> members;
     double edge = 0;  ///< size of the largest [m]
@@ -42,7 +42,7 @@ class MultiLevelGridBroadPhase final : public BroadPhase {
   std::array<Octave, octaves> octaves_;
   std::vector<HashLevel> levels_;  ///< from coarse to fine; the first level_count_ are in use
   size_t level_count_ = 0;
-  PackedTree nested_;  ///< of all levels, where they are many
+  PackedTree nested_;  ///< over all levels, where they are many
   std::vector<uint32_t> nested_ids_;
   LargeBounds large_;
   PairCollector collector_;

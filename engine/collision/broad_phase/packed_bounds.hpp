@@ -4,10 +4,10 @@
 
 namespace tumble {
 
-/// The bounds of a proxy relative to an origin, rounded to nearest in single precision. Rounding
-/// keeps order, so that bounds apart here are apart in double too, and bounds that overlap here by
-/// more than an equality overlap in double. The fourth lane holds (0, 1) for a moving proxy and
-/// (1, 0) for one at rest: two at rest never overlap.
+/// The bounds of a proxy relative to an origin, rounded to nearest in single precision. Rounding is
+/// monotonic: bounds that are apart here are apart in double too, and bounds that overlap here by
+/// strict inequalities overlap in double. The fourth lane holds (0, 1) for a moving proxy and (1,
+/// 0) for one at rest, so that two at rest never overlap.
 struct PackedBounds {
   Float4 lo, hi;
 

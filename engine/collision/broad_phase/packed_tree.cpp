@@ -11,15 +11,15 @@
 namespace tumble {
 namespace {
 
-/// Smaller trees are done with before they are divided.
+/// Smaller trees are built faster by one thread.
 constexpr size_t least_branching = 2048;
 
-/// Members of a leaf at most: comparing a few more in a row is cheaper than one more step down.
+/// Largest number of members of a leaf: a few more comparisons are cheaper than one more level.
 constexpr uint32_t leaf_size = 12;
 /// Below this count comparisons sort faster than three passes over 1024 bins.
 constexpr uint32_t radix_sort_from = 512;
 
-/// Halved first: the sum of two bounds could overflow.
+/// Each is halved first, as the sum of two bounds could overflow.
 Vec3 centre_of(const Aabb& b) {
   return 0.5 * b.min + 0.5 * b.max;
 }
@@ -32,7 +32,7 @@ uint32_t spread_bits(uint32_t x) {
   return (x | (x << 2)) & 0x09249249u;
 }
 
-/// Pairs between the members below two different nodes.
+/// Pairs of a member below node i of a and one below node j of b.
 void pairs_between(const PackedTree& a, uint32_t i, const PackedTree& b, uint32_t j,
                    PairCollector& out) {
   const PackedTree::Node &x = a.nodes()[i], &y = b.nodes()[j];
@@ -45,7 +45,7 @@ void pairs_between(const PackedTree& a, uint32_t i, const PackedTree& b, uint32_
     }
     return;
   }
-  // The node of more members goes down.
+  // Descend into the node with more members.
   if (y.right == 0 || (x.right != 0 && x.last - x.first >= y.last - y.first)) {
     pairs_between(a, i + 1, b, j, out);
     pairs_between(a, x.right, b, j, out);
@@ -72,7 +72,7 @@ struct NodePair {
   uint32_t i, j;
 };
 
-/// One step down, as pairs_below and pairs_between would go; both leaves stay as they are.
+/// One step of the descent of pairs_below and pairs_between; pairs of two leaves are kept.
 void step_down(const PackedTree& a, const PackedTree& b, NodePair p, std::vector<NodePair>& out) {
   const PackedTree::Node &x = a.nodes()[p.i], &y = b.nodes()[p.j];
   if (&x == &y) {
@@ -91,7 +91,7 @@ void step_down(const PackedTree& a, const PackedTree& b, NodePair p, std::vector
 
 void pairs_in_parallel(const PackedTree& a, const PackedTree& b, std::vector<NodePair> work,
                        Crew& crew, PairCollector& out) {
-  // Many more pieces than threads, for they differ much in what they cost.
+  // Many more pieces than threads, since their costs differ widely.
   constexpr size_t pieces = 32 * chunk_count;
   constexpr int most_steps = 24;
   std::vector<NodePair> next;
@@ -137,7 +137,7 @@ bool PackedTree::sort_by_code(uint32_t first, uint32_t last, std::vector<Coded>&
   for (uint32_t k = first; k < last; ++k) centres.include(centre_of(proxies_[coded_[k].id].bounds));
   const double size = centres.extent().maxCoeff();
   if (size < 1e-290) return false;  // else the scale could overflow
-  // Cubes, so that long thin worlds are first cut across.
+  // The same scale for all axes, so that long thin worlds are first split across their length.
   const double scale = 1023.999 / size;
   for (uint32_t k = first; k < last; ++k) {
     const Vec3 x = (centre_of(proxies_[coded_[k].id].bounds) - centres.min) * scale;
@@ -164,8 +164,8 @@ bool PackedTree::sort_by_code(uint32_t first, uint32_t last, std::vector<Coded>&
 }
 
 uint32_t PackedTree::split(uint32_t first, uint32_t last, std::vector<Coded>& scratch) {
-  // Members that share the finest cell of the curve get a curve of their own, so that clusters in a
-  // wide world are told apart; those at one and the same place are halved.
+  // Members in the same finest cell of the curve get a curve of their own, so that clusters in a
+  // wide world are resolved; members at one and the same place are halved.
   if (coded_[first].code == coded_[last - 1].code && !sort_by_code(first, last, scratch))
     return first + (last - first) / 2;
   const uint32_t bit = std::bit_floor(coded_[first].code ^ coded_[last - 1].code);
@@ -199,8 +199,8 @@ uint32_t PackedTree::add_node(uint32_t first, uint32_t last, Growth& out) {
   return index;
 }
 
-/// The top is divided first, then the branches grow side by side, and all is put together in the
-/// order in which one thread would have made it.
+/// The top of the tree is divided first, then the branches are built in parallel, and all nodes are
+/// joined in the order in which one thread would have made them.
 void PackedTree::build_in_parallel(Crew& crew) {
   struct Twig {
     uint32_t first, last, branch, left, right;  // branch or children

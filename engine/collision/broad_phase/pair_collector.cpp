@@ -29,7 +29,7 @@ BroadPhaseStats PairCollector::finish(std::vector<ProxyPair>& pairs, Crew* crew)
     stats_.found = pairs.size();
     return stats_;
   }
-  // Into one run per first index, then each run by the second: most runs are a few pairs long.
+  // Sorts into one run per first index, then each run by the second index: most runs are short.
   ends_.assign(proxies_.size() + 1, 0);
   for_all([&](const ProxyPair& p) { ++ends_[p.a + 1]; });
   for (size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// Packed bounds with the indices of their proxies, in the order that a structure likes.
+/// Packed bounds with the indices of their proxies, in the order of a structure.
 struct PackedSet {
   std::vector<PackedBounds> bounds;
   std::vector<uint32_t> ids;
@@ -16,14 +16,15 @@ struct PackedSet {
   size_t size() const { return ids.size(); }
 };
 
-/// Tests packed bounds, decides in double where single precision leaves a doubt, and gathers the
-/// pairs in any order; finish() sorts them. Each pair must be offered once. Once it has many more
-/// than any tick can work on it gathers no more: what is all in one place would fill the memory.
+/// Tests packed bounds, decides in double precision where single precision is ambiguous, and
+/// collects the pairs in any order; finish() sorts them. Each pair must be offered once. The
+/// collection stops at far more pairs than a tick can process: with everything in one place they
+/// would fill the memory.
 class PairCollector {
  public:
   /// `owners`: BroadPhase::set_owners.
   void start(std::span<const BroadPhaseProxy> proxies, std::span<const uint32_t> owners = {});
-  /// One against set[first, last).
+  /// Tests bounds against set[first, last).
   void test(const PackedBounds& a, uint32_t id, const PackedSet& set, size_t first, size_t last) {
     if (found_.size() >= most_pairs) return;
     stats_.tested += last - first;
@@ -31,7 +32,7 @@ class PairCollector {
       if (may_overlap(a, set.bounds[k])) add(a, id, set.bounds[k], set.ids[k]);
   }
   /// Calls f(first, last, collector) for fixed chunks of [0, n), each with a collector of its own,
-  /// on these threads or, without any or with n below `least`, one after the other with this one.
+  /// on these threads; without threads, or with n below `least`, once with this collector.
   template <class F>
   void in_chunks(Crew* crew, size_t n, const F& f, size_t least = least_parallel) {
     if (!crew || n < least) return f(size_t{0}, n, *this);
@@ -51,12 +52,12 @@ class PairCollector {
     found_.push_back(i < j ? ProxyPair{i, j} : ProxyPair{j, i});
   }
 
-  static constexpr size_t most_pairs = size_t{1} << 25;  ///< of one chunk: 256 MiB
+  static constexpr size_t most_pairs = size_t{1} << 25;  ///< per chunk: 256 MiB
 
   std::span<const BroadPhaseProxy> proxies_;
   std::span<const uint32_t> owners_;
   std::vector<ProxyPair> found_;
-  std::vector<PairCollector> parts_;  ///< of the chunks; they have none
+  std::vector<PairCollector> parts_;  ///< by chunk
   std::vector<uint32_t> ends_;
   BroadPhaseStats stats_;
 };

@@ -12,7 +12,7 @@ namespace {
 
 /// More large bounds than this go into a tree.
 constexpr size_t most_listed = 32;
-/// The median is that of about as many sizes.
+/// The median is estimated from about so many sizes.
 constexpr size_t median_sample = 1024;
 
 }  // namespace
@@ -41,7 +41,8 @@ double UniformGridBroadPhase::measure(std::span<const BroadPhaseProxy> proxies) 
   for (const double size : sizes_) {
     if (size == std::numeric_limits<double>::infinity()) continue;
     largest = std::max(largest, size);
-    // One of each stride, by a rule that no pattern of sizes in the list falls in with.
+    // One size of each stride, at a varying position, so that periodic patterns of sizes do not
+    // bias it.
     if (finite++ % stride == phase) finite_sizes_.push_back(size);
     if (finite % stride == 0) phase = (phase * 5 + 3) % stride;
   }

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// One hash grid (Coutinho §2.4.1) whose cell is the largest size, at most twice the median.
-/// What is larger is compared with the cells that it covers and one by one with its like, or where
-/// there is much of it put into a tree. Infinite bounds are compared with all.
+/// One hash grid (Coutinho §2.4.1) whose cells have the largest size, but at most twice the median.
+/// Larger bounds are compared with the cells that they cover, and with each other one by one, or,
+/// if they are many, by a tree. Infinite bounds are compared with all.
 class UniformGridBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;
@@ -17,7 +17,7 @@ class UniformGridBroadPhase final : public BroadPhase {
   void draw(std::span<const BroadPhaseProxy> proxies, DebugDraw& out) const override;
 
  private:
-  /// Sizes, the origin for packing, and the edge of a cell [m].
+  /// Computes sizes and the packing origin; returns the edge of a cell [m].
   double measure(std::span<const BroadPhaseProxy> proxies);
   void compare_large(std::span<const BroadPhaseProxy> proxies);
 

@@ -12,7 +12,7 @@ namespace tumble {
 TimeOfContact advance(MovingDistance& pair, double t0, double t1, double tolerance,
                       ContactTimeTrace* trace = nullptr);
 
-/// The same for two convex cores, rounding included.
+/// The same for two convex cores, with their radii of rounding.
 TimeOfContact advance(const MovingCore& a, const MovingCore& b, double t0, double t1,
                       double tolerance, ContactTimeTrace* trace = nullptr);
 

@@ -66,7 +66,7 @@ class Bisection {
     apart_ = m;
     next_ = Division::newton;
   }
-  /// Until when the two are sure to be apart, and by half the tolerance.
+  /// Time until which the two are proven apart, by half the tolerance.
   double safe_until() const {
     const double speed = distance_.approach(apart_.near.normal);
     if (!(speed > 0)) return t1_;
@@ -81,13 +81,14 @@ class Bisection {
     return (apart_.near.distance - least) / closes + (m.near.distance - least) / opens >=
            m.t - apart_.t;
   }
-  /// Where the nearest points would meet.
+  /// Time at which the nearest points would meet.
   double newton_time() const {
     const double closing = distance_.closing(apart_.near, apart_.t);
     if (!(closing > 0)) return t1_;
     return apart_.t + (apart_.near.distance - 0.5 * tolerance_) / closing;
   }
-  /// Looks at one more moment before the next one known. False when time resolves none.
+  /// Measures at one more time before the next known one. False if there is no such time in double
+  /// precision.
   bool divide() {
     const double end = later_.back().t, safe = safe_until();
     const double half = apart_.t + 0.5 * (end - apart_.t);
@@ -105,7 +106,7 @@ class Bisection {
     move_to(moment(safe));
     return true;
   }
-  /// What touches ends the search: nothing later matters.
+  /// A contact ends the search: later times do not matter.
   bool add(double t) {
     const Moment m = moment(t);
     if (m.near.distance <= tolerance_) later_.clear();

@@ -4,21 +4,22 @@
 
 namespace tumble {
 
-/// First contact by bisection (Coutinho 2013 §1.4.4, 1.4.6): the time of contact is bracketed
-/// between a moment known to be apart, with all before it, and later moments.
+/// First contact by bisection (Coutinho 2013 §1.4.4, 1.4.6): it is bracketed between a time until
+/// which the shapes are known to be apart, and later times.
 ///
-/// Between two moments at distances d and e the gap cannot close when d/s + e/r covers the time
-/// between them, s bounding how fast the gap closes along the first normal and r how fast it opens
-/// along the second: no contact, however short, is skipped. What is not covered is divided where
-/// the nearest points would meet (Newton), in the middle, or at the end of the step that is safe
-/// for certain. Status initially_overlapping when the two are within the tolerance at t0.
+/// Between two times at which the distances are d and e, the gap cannot close if d/s + e/r exceeds
+/// the time between them, where s bounds the rate at which the gap closes along the first normal,
+/// and r the rate at which it opens along the second: no contact is skipped, however short. An
+/// interval that fails the test is divided at the time at which the nearest points would meet
+/// (Newton), in the middle, or at the end of the step that is proven safe. Status
+/// initially_overlapping when the distance is within the tolerance at t0.
 TimeOfContact bisect(MovingDistance& distance, double t0, double t1, double tolerance,
                      ContactTimeTrace* trace = nullptr);
 
 /// The method "bisection": convex shapes and half-spaces by `bisect` on their distance; meshes by
-/// the distance of the nearest triangles over their hierarchies, unless they are within the
-/// tolerance at the start: then by conservative advancement of the other triangles, and the answer
-/// says so.
+/// the distance of the nearest triangles, found by their hierarchies. Meshes that are within the
+/// tolerance at the start are left to conservative advancement of the other triangles, and the
+/// result names that method.
 TimeOfContact find_by_bisection(const MovingPair& pair);
 
 }  // namespace tumble

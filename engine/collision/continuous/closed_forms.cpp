@@ -39,7 +39,7 @@ class BallDistance final : public MovingDistance {
   double ra_, rb_;
 };
 
-/// The answer when the method says that contact is at `time`, counted from the distance there.
+/// The result for contact at `time`, completed by the distance at that time.
 TimeOfContact contact_found(MovingDistance& distance, double time, const MovingPair& p) {
   TimeOfContact r;
   r.iterations = 2;
@@ -56,7 +56,7 @@ TimeOfContact none_found(const MovingPair& p) {
   return r;
 }
 
-/// Contact at the start by the same measure as every other method.
+/// Whether they touch at the start, by the same criterion as for all methods.
 bool touching_at_start(MovingDistance& distance, const MovingPair& p, TimeOfContact& r) {
   const Nearest now = distance.at(p.t0(), 2 * p.tolerance);
   if (now.distance > p.tolerance) return false;
@@ -78,7 +78,7 @@ TimeOfContact find_by_balls(const MovingPair& p) {
   TimeOfContact r;
   if (touching_at_start(distance, p, r)) return r;
   const double duration = p.t1() - p.t0();
-  // In a frame that travels with A.
+  // In a frame that translates with A.
   const Vec3 apart = p.motion_b.pose(p.t0()).x - p.motion_a.pose(p.t0()).x;
   const Vec3 way = duration * (p.motion_b.velocity - p.motion_a.velocity);
   const MovingSphere a{{Vec3::Zero(), Vec3::Zero()}, p.a.bounding_radius() + 0.5 * p.tolerance};

@@ -7,22 +7,22 @@
 
 namespace tumble {
 
-/// Apart until t, nearest there as given.
+/// Sets the result to "apart until t", with the nearest points at that time.
 void set_nearest(TimeOfContact& answer, const Nearest& now, double t);
 
-/// What is nearest when the contact is at t, and one look ahead, to where a head-on contact would
-/// overlap. The status is left alone.
+/// Fills in the nearest points at the contact time t, and the evidence at one later time, by which
+/// a head-on contact would overlap. The status is not changed.
 void set_contact(TimeOfContact& answer, MovingDistance& pair, const Nearest& now, double t,
                  double t1, double tolerance, ContactTimeTrace* trace = nullptr);
 
-/// What an onlooker gets of a query at t, the contact being known to lie in `bracket` if anywhere.
+/// The record of a distance query at t; the contact, if there is one, is known to lie in `bracket`.
 ContactTimeProbe probe_of(const Nearest& now, double t, const std::array<double, 2>& bracket,
                           double speed);
 
-/// The answer for the same shapes in the other order.
+/// The result with the roles of the shapes exchanged.
 TimeOfContact exchanged(TimeOfContact answer);
 
-/// Nothing touches before t.
+/// The result that nothing touches before t.
 inline TimeOfContact separated_until(double t) {
   TimeOfContact r;
   r.time = r.low = r.high = t;

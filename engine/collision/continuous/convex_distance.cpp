@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// With the width of the gap along the normal that steps will be bounded along.
+/// The distance is the width of the gap along the normal by which steps will be bounded.
 Nearest gap_between(const Pose& pa, const PlacedCore& A, const PlacedCore& B, const Vec3& on_a,
                     const Vec3& on_b, const Vec3& normal) {
   const double ra = A.core->rounding(), rb = B.core->rounding();
@@ -73,7 +73,7 @@ double ConvexDistance::approach(const Vec3& n) const {
 double ConvexDistance::open_for(const Vec3& n, double t, double gap) const {
   const double by_speed = MovingDistance::open_for(n, t, gap);
   if (!core_a_.rides_far() && !core_b_.rides_far()) return by_speed;
-  // What of the gap is used up in a time s is at most u s + w s^2 / 2.
+  // The gap decreases in a time s by at most u s + w s^2 / 2.
   const double u = n.dot(a_.origin_velocity(t) - b_.origin_velocity(t)) +
                    n.cross(a_.omega).norm() * core_a_.radius +
                    n.cross(b_.omega).norm() * core_b_.radius;
@@ -85,8 +85,8 @@ double ConvexDistance::open_for(const Vec3& n, double t, double gap) const {
 
 HalfSpaceDistance::HalfSpaceDistance(const Motion& plane, const MovingCore& b)
     : MovingDistance(plane, b.motion), core_(b) {
-  // How far from the plane's carrier any point of B can ever be; the plane's own point beneath it
-  // is no farther.
+  // Bound on the distance of any point of B from the plane's carrier; the point of the plane
+  // beneath it is no farther away.
   const auto distance = [&](double t) {
     return (b_.carrier(t).x - a_.carrier(t).x).norm() + core_.lever;
   };
@@ -108,7 +108,7 @@ Nearest HalfSpaceDistance::at(double t, double) {
 }
 
 double HalfSpaceDistance::approach(const Vec3& n) const {
-  if (!a_.omega.isZero()) return fastest_;  // the normal turns, so no direction can be kept
+  if (!a_.omega.isZero()) return fastest_;  // the normal rotates: no fixed direction
   return a_.speed_bound_along(n, 0) + b_.speed_bound_along(-n, core_.lever);
 }
 

@@ -7,45 +7,47 @@ namespace tumble {
 
 struct VoronoiPolyhedron;
 
-/// Whether a frame rides so far from its carrier's centre that bounds about the centre say little
-/// of what is within `radius` of it: by ten times that. Nearer, a better bound costs more than the
-/// steps that it saves.
+/// Whether a frame is so far from its carrier's centre (ten times the radius) that speed bounds
+/// about the centre are poor for points within `radius` of the frame. For nearer frames a better
+/// bound costs more than the steps that it saves.
 inline bool rides_far(const Motion& m, double radius) {
   return m.offset.x.norm() > 10 * radius;
 }
 
-/// A convex core on its way.
+/// A moving convex core.
 struct MovingCore {
   const ConvexCore& core;
   const Motion& motion;
-  double lever;   ///< of the core with its rounding about the carrier's centre [m]
-  double radius;  ///< of the core alone about the frame's origin: rounding does not turn [m]
-  /// Of boxes and hulls, where their closest features are asked for by V-Clip; else null.
+  double lever;  ///< largest distance of a point of the rounded core from the carrier's centre [m]
+  /// Largest distance of a point of the core, without rounding, from the frame's origin [m].
+  double radius;
+  /// Voronoi planes of boxes and hulls, if V-Clip is to find the closest features; else null.
   const VoronoiPolyhedron* voronoi = nullptr;
 
   bool rides_far() const { return tumble::rides_far(motion, radius + core.rounding()); }
-  /// Bound on the velocity along unit vector `n` of any of its points, at any time [m/s]. On a
-  /// lever the frame's origin goes round at its own speed, and only what is around the origin turns
-  /// besides.
+  /// Bound on the velocity along unit vector `n` of any of its points, at any time [m/s]. For a
+  /// frame far from its carrier's centre, it is the orbital speed of the frame's origin, plus the
+  /// rotation of the core about that origin.
   double speed_along(const Vec3& n) const;
 };
 
-/// Nearest points of two cores with their rounding at given poses, by GJK. The distance is the
-/// width of the gap along the normal found, so that it errs on the safe side only; beyond `reach`
-/// it is some lower bound. The points are within a tenth of `tolerance` of that distance.
-/// `direction`, if any, is where to begin, and then the normal found.
+/// Nearest points of two rounded cores at given poses, by GJK. The distance is the width of the gap
+/// along the normal found, which is never too large; beyond `reach` it is some lower bound. The
+/// distance of the points is within a tenth of `tolerance` of it. `direction`, if given, is the
+/// initial search direction, and receives the normal found.
 Nearest nearest_cores(const MovingCore& a, const Pose& pa, const MovingCore& b, const Pose& pb,
                       double reach, double tolerance, Vec3* direction = nullptr);
 
-/// Two convex cores with their rounding. By V-Clip when both have Voronoi planes, else by GJK; each
+/// Distance of two rounded convex cores, by V-Clip when both have Voronoi planes, else by GJK; each
 /// query starts where the last one ended.
 class ConvexDistance final : public MovingDistance {
  public:
   ConvexDistance(const MovingCore& a, const MovingCore& b, double tolerance);
   Nearest at(double t, double reach) override;
   double approach(const Vec3& n) const override;
-  /// On a lever the velocity of the frame's origin now, with a bound on its acceleration, may say
-  /// more than bounds for the whole motion: the carrier's velocity and the turning may cancel.
+  /// For frames far from their carriers, the present velocity of the frame's origin with a bound on
+  /// its acceleration may be sharper than bounds for the whole motion, since the carrier's velocity
+  /// and its rotation may cancel.
   double open_for(const Vec3& n, double t, double gap) const override;
 
  private:
@@ -58,7 +60,8 @@ class ConvexDistance final : public MovingDistance {
   bool started_ = false;
 };
 
-/// The half-space y <= 0 of a moving frame (A) and a convex core: no point is below the lowest.
+/// Distance of the half-space y <= 0 of a moving frame (A) and a convex core: the height of the
+/// core's lowest point.
 class HalfSpaceDistance final : public MovingDistance {
  public:
   HalfSpaceDistance(const Motion& plane, const MovingCore& b);

@@ -6,23 +6,24 @@
 
 namespace tumble {
 
-/// Gathers the answers for pairs of triangles over parts of the interval: the earliest contact, and
-/// what was near from the start.
+/// Combines the results for pairs of triangles over parts of the interval: the earliest contact,
+/// and the pairs that were within the tolerance from the start.
 class EarliestContact {
  public:
   explicit EarliestContact(double t1) : t1_(t1), best_(separated_until(t1)) {}
 
-  /// The time up to which a further pair is of interest: the earliest contact so far.
+  /// Time up to which a further pair need be examined: that of the earliest contact so far.
   double time() const { return best_.time; }
   bool found() const { return best_.status != TimeOfContactStatus::separated; }
 
-  /// Takes the answer of one pair of triangles on a part of the interval. True when the two were
-  /// within the tolerance already at the start of the whole: to be left out from now on.
+  /// Adds the result of one pair of triangles for a part of the interval. Returns true if the two
+  /// were within the tolerance already at the start of the whole interval; such a pair is to be
+  /// left out from then on.
   bool offer(const TimeOfContact& answer, uint32_t ta, uint32_t tb, bool first_part) {
     const int iterations = best_.iterations + answer.iterations;
     const bool initial = answer.status == TimeOfContactStatus::initially_overlapping;
     if (initial && first_part) note(answer, ta, tb);
-    // Too close already at the start of a later part: touched, exactly there.
+    // Within the tolerance at the start of a later part: that is the time of contact.
     const bool hit = answer.hit() || (initial && !first_part);
     const bool unknown = answer.status == TimeOfContactStatus::max_iterations;
     if ((hit || unknown) && answer.time < best_.time) {
@@ -35,7 +36,8 @@ class EarliestContact {
   }
   void add_iterations(int n) { best_.iterations += n; }
 
-  /// The earliest contact, else what was near from the start, else separated.
+  /// The earliest contact; if there is none, the nearest pair that was within the tolerance from
+  /// the start; else separated.
   TimeOfContact answer() const {
     if (best_.time < t1_ || best_.hit() || !any_initial_) return best_;
     TimeOfContact r = initial_;
@@ -55,7 +57,8 @@ class EarliestContact {
   bool any_initial_ = false;
 };
 
-/// Equal parts of an interval in which a pair moves by `way`, on each of them by about `size` [m].
+/// Divides an interval, in which a pair moves by `way`, into equal parts in each of which it moves
+/// by about `size` [m].
 struct IntervalParts {
   double t0, t1;
   int count;

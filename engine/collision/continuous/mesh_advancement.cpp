@@ -17,7 +17,7 @@ TriangleCore triangle_core(const MeshSurface& s, uint32_t t) {
   return {s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2)};
 }
 
-/// A triangle's core on its way with the mesh.
+/// The core of a triangle that moves with the mesh.
 MovingCore moving_triangle(const TriangleCore& core, const MeshSurface& s, uint32_t t,
                            const Motion& m) {
   double lever = 0, radius = 0;

@@ -28,7 +28,7 @@ class ConvexMeshDistance final : public MovingDistance {
   Nearest at(double t, double reach) override {
     const Pose pa = a_.pose(t), pb = b_.pose(t);
     const Pose relative = pb.inverse() * pa;
-    // First as far as what was nearest last time: the tree need not show what is farther.
+    // The nearest triangle of the last query first: the tree can then skip whatever is farther.
     Nearest best = to_triangle(last_, pa, pb, reach);
     const double within = std::min(reach, best.distance);
     triangles_.clear();
@@ -81,7 +81,8 @@ class MeshMeshDistance final : public MovingDistance {
     if (!near) return n;
     n.on_a = pa.point(near->on_a), n.on_b = pa.point(near->on_b);
     const double distance = std::sqrt(near->squared_distance);
-    // Sides that are parallel but for 1e-8 may hide a square of the distance of 1e-16 size^2.
+    // Nearly parallel sides (within 1e-8) may hide an error of 1e-16 size^2 in the squared
+    // distance.
     const double rounding = 1e-13 * size_ + (distance > 0 ? 4e-16 * size_ * size_ / distance : 0);
     n.distance = std::max(0.0, distance - rounding);
     if (distance > 0) n.normal = pa.direction(near->on_b - near->on_a) / distance;

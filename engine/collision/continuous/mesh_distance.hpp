@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// The distance of a convex shape or mesh (A) and a mesh (B): of the triangles nearest to each
-/// other. Surfaces that have no common direction between them: their approach is bounded by the
+/// Distance of a convex shape or mesh (A) and a mesh (B): that of their nearest triangles. Surfaces
+/// have no separating direction as a whole, so their approach is bounded by the speeds of the
 /// fastest points alone.
 std::unique_ptr<MovingDistance> mesh_distance(const MovingPair& pair);
 

@@ -12,12 +12,12 @@ bool always(const MovingPair&) {
   return true;
 }
 
-/// Convex shapes that move no farther than they are thick: two distances decide most.
+/// Convex shapes that move no farther than their thickness: two distances decide most pairs.
 bool slow(const MovingPair& p) {
   return p.speed() * (p.t1() - p.t0()) <= std::min(p.a.inner_radius(), p.b.inner_radius());
 }
 
-/// Surfaces that move no farther than a quarter of their size: near triangles are near throughout.
+/// Surfaces that move no farther than a quarter of their size: the near triangles stay near.
 bool stays_near(const MovingPair& p) {
   const double size = std::min(p.surface_a().size, p.surface_b().size);
   return p.speed() * (p.t1() - p.t0()) <= 0.25 * size;

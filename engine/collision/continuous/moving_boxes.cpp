@@ -14,10 +14,11 @@ namespace {
 constexpr double box_half_ulp = 0x1p-53;
 constexpr int most_box_steps = 4096;
 constexpr int box_axes = 15;
-/// Edges at a smaller sine count as parallel: faces then tell them apart to as much of the size.
+/// Edges at a smaller sine count as parallel: face axes are then as good, up to this share of the
+/// size.
 constexpr double parallel_box_sine = 1e-13;
 
-/// Half axes of both boxes, the way from A's centre to B's, and the gap along each axis.
+/// The boxes at one time: half axes, vector from A's centre to B's, and the gap along each axis.
 struct BoxMoment {
   double t = 0;       ///< since the beginning [s]
   Mat3 a, b;          ///< half axes in columns, world
@@ -40,7 +41,7 @@ class BoxMarch {
     size_ = apart_.norm() + duration_ * velocity_.norm() + lever_a_ + lever_b_;
     spin_a_ = a.motion.omega.norm();
     spin_b_ = b.motion.omega.norm();
-    // Positions: a few units; orientation: a few, and the angle's own rounding.
+    // Rounding of positions: a few units; of orientations: a few, and that of the angle itself.
     rounding_ =
         box_half_ulp * (64 * size_ + 8 * duration_ * (spin_a_ * lever_a_ + spin_b_ * lever_b_));
   }
@@ -63,7 +64,7 @@ class BoxMarch {
         continue;
       }
       const double sure = 0.99 * sure_step(now);
-      // Short of it the arcs may still be too wide for the gap that is left.
+      // Before the contact the arcs may still be too wide for the remaining gap.
       step =
           step <= sure ? 0.25 * step : std::max(sure, std::min(0.25 * step, towards_contact(now)));
     }
@@ -121,7 +122,7 @@ class BoxMarch {
   static double gap_along(const Vec3& w, const BoxMoment& m) {
     return w.dot(m.between) - extent(w, m);
   }
-  /// Middle Bernstein coefficient of the gap of the chords, least over all pairs of corners.
+  /// Middle Bernstein coefficient of the gap between the chords, the least of all pairs of corners.
   static double middle_gap(const BoxMoment& p, const Vec3& wp, const BoxMoment& q, const Vec3& wq) {
     return 0.5 * (wp.dot(q.between) + wq.dot(p.between) -
                   (q.a.transpose() * wp + p.a.transpose() * wq).cwiseAbs().sum() -
@@ -159,7 +160,7 @@ class BoxMarch {
     return rate * duration_ > room ? room / rate : duration_;
   }
 
-  /// A little before the corners nearest to each other along the best axis would meet.
+  /// A time a little before the nearest corners along the best axis would meet.
   double towards_contact(const BoxMoment& m) const {
     const Vec3& w = m.axis[size_t(m.best)];
     const auto corner = [](const Mat3& axes, const Vec3& along) {
@@ -176,7 +177,7 @@ class BoxMarch {
     return step * (1 - std::clamp(2 * step / duration_, 1e-4, 0.05));
   }
 
-  /// Every axis overlaps by more than the rounding of its direction.
+  /// Whether they overlap along every axis by more than the rounding of its direction.
   bool surely_overlap(const BoxMoment& m) const {
     for (size_t k = 0; k < box_axes; ++k) {
       if (m.sine[k] <= parallel_box_sine) continue;

@@ -15,13 +15,13 @@ namespace {
 
 constexpr int most_facet_steps = 2048;
 
-/// Whichever comes first of contacts that may not be there.
+/// Keeps the earlier of two contacts, either of which may not exist.
 void keep_first(std::optional<MovingContact>& best,
                 const Result<std::optional<MovingContact>>& found) {
   if (found && *found && (!best || (*found)->t_lo < best->t_lo)) best = *found;
 }
 
-/// Steps of a facet (A) and a triangle (B), in a frame that travels with A's carrier.
+/// The steps for a facet (A) and a triangle (B), in a frame that translates with A's carrier.
 class FacetMarch {
  public:
   FacetMarch(const MovingFacet& a, const MovingFacet& b) : a_(a), b_(b) {
@@ -46,14 +46,15 @@ class FacetMarch {
       const double room = r.distance_low - target;
       const double speed = turning_ - r.normal.dot(velocity_);
       if (!(speed * (t1 - t) > room)) return separated(r, t1);
-      // Steps that are safe for certain tell most pairs that pass each other.
+      // Steps that are safe by a bound on the speed suffice for most pairs that do not meet.
       if (r.iterations % 4 != 0) {
         const double safe = t + room / speed;
         if (!(safe > t)) break;  // the tolerance is below what time resolves
         t = safe;
         continue;
       }
-      // Departure from the chords, acceleration h^2 / 8, small beside the room or the tolerance.
+      // The deviation from the chords, acceleration h^2 / 8, is to be small relative to the gap or
+      // the tolerance.
       const double allowed = std::max(0.0625 * room, 0.125 * tolerance);
       double h = acceleration_ > 0 ? std::sqrt(8 * allowed / acceleration_) : t1 - t;
       const double end = h < t1 - t ? t + h : t1;
@@ -67,7 +68,7 @@ class FacetMarch {
         continue;
       }
       const double until = std::max(t, std::nextafter(t + met->t_lo * h, t));
-      // What gave up without getting anywhere is left by a step that is safe anyway.
+      // A test that gave up without progress is followed by a step that is safe by the speed bound.
       t = until > t ? until : t + room / speed;
     }
     r.status = TimeOfContactStatus::max_iterations;

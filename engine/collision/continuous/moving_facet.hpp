@@ -6,31 +6,32 @@
 
 namespace tumble {
 
-/// A point, segment or triangle of a shape on its way, with a rounding: what touches first.
+/// A moving point, segment or triangle of a shape, with a radius of rounding: the feature of a
+/// surface that can touch first.
 struct MovingFacet {
-  std::array<Vec3, 3> corner;  ///< about the carrier's centre, in world axes at motion.t0 [m]
+  std::array<Vec3, 3> corner;  ///< relative to the carrier's centre, world axes at motion.t0 [m]
   int corners = 3;
-  double rounding = 0;  ///< all points within this belong to it [m]
+  double rounding = 0;  ///< points within this distance belong to it [m]
   const Motion* motion = nullptr;
 
-  /// `points` in the motion's frame; one, two or three of them count.
+  /// `points` are in the motion's frame; the first `count` of them are used.
   MovingFacet(const Motion& m, const std::array<Vec3, 3>& points, int count, double radius = 0);
-  /// Greatest speed of turning of a corner [m/s], and the centripetal acceleration there [m/s2].
+  /// Greatest speed of a corner by rotation [m/s], and its centripetal acceleration [m/s2].
   double turning() const;
   double acceleration() const;
 };
 
 /// First contact of facet A with triangle B over [t0, t1], a part of the motions' interval
-/// (Coutinho 2013 §4.6, 2.5.15). The interval is split where corners would depart from straight
-/// lines by more than a small part of the gap, at last of the tolerance; every step is decided by
-/// the certified tests of points, edges and triangles whose corners move linearly
-/// (geometry/continuous_tests/), the departure added to the separation asked for. Status
-/// initially_overlapping when the two are within the tolerance at t0; features are left unset.
+/// (Coutinho 2013 §4.6, 2.5.15). The interval is split until corners deviate from straight lines by
+/// no more than a small part of the gap, or of the tolerance; every step is decided by the
+/// certified tests of points, edges and triangles whose corners move linearly
+/// (geometry/continuous_tests/), with that deviation added to the separation. Status
+/// initially_overlapping when the two are within the tolerance at t0; features are not set.
 TimeOfContact facet_contact(const MovingFacet& a, const MovingFacet& b, double t0, double t1,
                             double tolerance);
 
-/// Until when the two are farther apart than half the tolerance for certain, by what is nearest at
-/// t; t when they are within the tolerance there [s].
+/// Time until which the two are proven to be farther apart than half the tolerance, by a bound from
+/// their nearest points at t; t if they are within the tolerance at t [s].
 double facets_apart_until(const MovingFacet& a, const MovingFacet& b, double t, double tolerance);
 
 }  // namespace tumble

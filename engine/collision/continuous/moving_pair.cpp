@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// Of what turns about the frame's origin: rounding does not [m].
+/// Radius about the frame's origin of the points that rotation moves; rounding does not count [m].
 double turning_radius(const Shape& s) {
   return s.bounding_radius() - (s.convex() ? s.convex()->rounding() : 0);
 }

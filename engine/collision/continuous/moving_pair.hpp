@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// What a method is asked. A comes before B in the order half-space, convex, mesh.
+/// The input of a method. A comes before B in the order half-space, convex, mesh.
 struct MovingPair {
   const Shape& a;
   const Motion& motion_a;
@@ -16,19 +16,20 @@ struct MovingPair {
 
   double t0() const { return motion_a.t0; }
   double t1() const { return motion_a.t1; }
-  /// Of all points of the shape about the carrier's centre [m].
+  /// Largest distance of a point of the shape from the carrier's centre [m].
   double lever_a() const { return motion_a.lever(a.bounding_radius()); }
   double lever_b() const { return motion_b.lever(b.bounding_radius()); }
   /// Bound on the speed of any point of A relative to any of B's [m/s].
   double speed() const;
-  /// Bound on how far any point of A moves relative to any of B's between the middle of a part of
-  /// the interval and its ends [m]: where a shape sits on a long lever far less than speed() says.
+  /// Bound on the displacement of any point of A relative to any of B between the middle of a part
+  /// of the interval and its ends [m]; for a shape far from its carrier's centre far less than from
+  /// speed().
   double drift(double from, double to) const;
   bool half_space() const { return a.is_half_space(); }
   bool both_convex() const { return a.convex() && b.convex(); }
   const MeshSurface& surface_a() const { return a.polyhedral()->surface(); }
   const MeshSurface& surface_b() const { return b.polyhedral()->surface(); }
-  /// Of convex shapes; with Voronoi planes where the options ask for V-Clip.
+  /// For convex shapes; with Voronoi planes if the options choose V-Clip.
   MovingCore core_a() const;
   MovingCore core_b() const;
 };

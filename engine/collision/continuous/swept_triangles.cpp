@@ -11,10 +11,11 @@
 namespace tumble {
 namespace {
 
-/// Above this many pairs half the interval is looked at first, as long as that leaves fewer.
+/// With more pairs than this the first half of the interval is searched first, as long as that has
+/// fewer.
 constexpr size_t many_pairs = 48;
 
-/// Whether a shape is all within a radius of a point or of a segment along y.
+/// Whether the core of a shape is a point or a segment along y.
 bool round_core(const Shape& s) {
   const ConvexShape* c = s.convex();
   if (!c || c->view().kind != CoreView::Kind::box) return false;
@@ -33,7 +34,7 @@ MovingFacet triangle_facet(const MeshSurface& s, uint32_t t, const Motion& m) {
   return {m, {s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2)}, 3};
 }
 
-/// Two triangles that may meet on a part of the interval, and not before `earliest`.
+/// Two triangles that may meet in a part of the interval, but not before `earliest`.
 struct SweptCandidate {
   TriangleIds ids;
   double earliest;
@@ -111,7 +112,7 @@ class TriangleSearch {
     std::sort(pair_skips_.begin(), pair_skips_.end());
   }
 
-  /// Those whose swept bounds meet between two moments, in the frame of the first mesh.
+  /// Finds the pairs whose swept bounds meet between two times, in the frame of the first mesh.
   void find_pairs(double from, double to) {
     pairs_.clear();
     const Pose pa = p_.motion_a.pose(from), pb = p_.motion_b.pose(from);
@@ -162,8 +163,9 @@ class TriangleSearch {
   std::vector<TriangleIds> pairs_;
   std::vector<uint32_t> triangles_;
   std::vector<SweptCandidate> candidates_;
-  std::vector<uint32_t> solid_skips_;    ///< of B, near the solid A from the start; ascending
-  std::vector<TriangleIds> pair_skips_;  ///< near each other from the start; ascending
+  /// Of B, within the tolerance of the solid A from the start; ascending.
+  std::vector<uint32_t> solid_skips_;
+  std::vector<TriangleIds> pair_skips_;  ///< within the tolerance from the start; ascending
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The vertices of a mesh as a convex core: for a half-space only their hull counts.
+/// The vertices of a mesh as a convex core: against a half-space only its convex hull matters.
 class VertexCore final : public ConvexCore {
  public:
   explicit VertexCore(const TriangleMesh& mesh) : mesh_(mesh) {

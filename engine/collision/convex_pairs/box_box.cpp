@@ -14,25 +14,25 @@
 namespace tumble {
 namespace {
 
-/// What the axes say: the largest separation and its direction from A to B.
+/// Result of the axis tests: the largest separation and its direction from A to B.
 struct Separation {
   double face = -std::numeric_limits<double>::infinity();
   double edge = face;
   Vec3 face_normal = Vec3::Zero(), edge_normal = Vec3::Zero();
   int edge_a = 0, edge_b = 0;
-  /// What the separation of edges must exceed to win over the faces [m].
+  /// An edge axis is chosen only if its separation exceeds this [m].
   double edge_threshold = 0;
   bool apart = false;  ///< farther than the margin
 
   bool by_edges() const { return edge > edge_threshold; }
 };
 
-/// Which edge pairs may separate the boxes by more than `least`: bit 3 i + j for edges i of A and j
-/// of B, a row of B's edges at a time. An estimate in floats, without roots and divisions, that
-/// leaves out none of them. `C` turns from B's axes to A's; `da` is the way from A to B in A's
-/// axes.
+/// The edge pairs that may separate the boxes by more than `least`: bit 3 i + j for edges i of A
+/// and j of B, computed for a row of B's edges at a time. A conservative estimate in single
+/// precision, without roots and divisions. `C` rotates from B's axes to A's; `da` is the vector
+/// from A to B in A's axes.
 unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& C, const Vec3& da) {
-  // several times the rounding of all that is summed
+  // several times the rounding error of the sums
   const Float4 rounding(float(2e-6 * (ha.sum() + hb.sum() + da.cwiseAbs().sum())));
   const Float4 least2(float(least * std::abs(least)));
   const Float4 b = Float4::round(hb[0], hb[1], hb[2]);
@@ -48,7 +48,7 @@ unsigned edges_beyond(double least, const Vec3& ha, const Vec3& hb, const Mat3& 
     const size_t k = (i + 1) % 3, l = (i + 2) % 3;
     const Float4 hk{float(ha[int(k)])}, hl{float(ha[int(l)])};
     const Float4 dk{float(da[int(k)])}, dl{float(da[int(l)])};
-    // along the cross product of the edges, which is as long as the sine of their angle
+    // along the cross product of the edges, whose length is the sine of their angle
     const Float4 distance = abs(dl * c[k] - dk * c[l]);
     const Float4 radii =
         (hk * abs_c[l] + hl * abs_c[k]) +
@@ -71,7 +71,7 @@ Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& 
     s.face = separation;
     s.face_normal = side < 0 ? Vec3(-axis) : axis;
   };
-  // B's faces must be clearly better than A's, so that the choice does not flicker
+  // B's faces must be clearly better than A's, so that the choice does not alternate
   const double level = 1e-6 * (ha.minCoeff() + hb.minCoeff());
   for (int i = 0; i < 3; ++i) face(std::abs(da[i]) - ha[i] - absC.row(i).dot(hb), RA.col(i), da[i]);
   for (int i = 0; i < 3; ++i) {
@@ -102,10 +102,10 @@ Separation separate(const Vec3& ha, const Vec3& hb, const Mat3& RA, const Mat3& 
   return s;
 }
 
-/// Where the edges of both boxes along the axes that made the normal are nearest.
+/// Nearest points of the lines through the two edges that define the normal.
 struct EdgePoints {
   Vec3 on_a, on_b;
-  bool between_ends;  ///< else some corner is as near
+  bool between_ends;  ///< otherwise some corner is as near
   uint64_t key;
 };
 
@@ -130,8 +130,8 @@ EdgePoints nearest_on_edges(const ShapePair& pair, const Vec3& ha, const Vec3& h
                       8u * unsigned(s.edge_b) + idb)};
 }
 
-/// Boxes that edges part. Where these are nearest between their ends no points of the boxes are
-/// nearer; elsewhere some corner is.
+/// Boxes separated by an edge pair. If the edges are nearest between their ends, these are the
+/// nearest points of the boxes; otherwise some corner is.
 void apart_by_edges(const ShapePair& pair, const EdgePoints& at, const Mat3& RA, const Mat3& RB,
                     const Separation& s, std::vector<Manifold>& out) {
   if (!at.between_ends) return collide_convex_convex(pair, out);
@@ -155,8 +155,8 @@ void face_points(const ShapePair& pair, const BoxShape& a, const BoxShape& b, co
   clip_faces(fa, fb, normal, 0, 0, pair.margin, points);
 }
 
-/// Whether boxes that have sunk into each other lie on each other by faces, a little tilted: one
-/// point where edges cross would let them sink on about it.
+/// Whether boxes that overlap deeply lie on each other by faces, slightly tilted: a single point
+/// where edges cross would let them rotate deeper about it.
 bool sunk_by_faces(const Separation& s, double thickness) {
   const bool sunk = s.edge < -0.01 * thickness;
   return sunk && s.edge - s.face < 0.05 * thickness && s.edge_normal.dot(s.face_normal) > 0.98;
@@ -193,7 +193,7 @@ void collide_box_box(const ShapePair& pair, std::vector<Manifold>& out) {
   ManifoldBuilder points;
   face_points(pair, a, b, RA, RB, s.face_normal, points);
   if (points.count() == 0) {
-    // Past each other's corners, where no face looks at the other box.
+    // No face is opposite to the other box: the boxes pass each other at corners.
     collide_convex_convex(pair, out);
     return;
   }

@@ -14,7 +14,7 @@ SegmentBoxDistance nearest_segment_box(const Vec3& p0, const Vec3& p1, const Vec
     const Vec3 p = p0 + t * d;
     return p - p.cwiseMax(-h).cwiseMin(h);
   };
-  const auto slope = [&](double t) { return d.dot(outside(t)); };  // half of it
+  const auto slope = [&](double t) { return d.dot(outside(t)); };  // half of the derivative
   double low = 0, high = 1, at_low = slope(0);
   double t = 0;
   if (at_low < 0) {

@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// The points of two cores at which they come apart when B moves out along the contact's normal:
-/// the nearest ones when it has moved a little farther than that.
+/// The points of two overlapping cores that touch last when B moves out along the contact's normal:
+/// the nearest points after a move by a little more than the depth.
 void touching_points(const PlacedCore& A, PlacedCore B, double scale, CoreContact& c,
                      double depth) {
   const Vec3 out = (depth + 0.01 * scale) * c.normal;
@@ -44,7 +44,8 @@ CoreContact nearest_or_deepest(const PlacedCore& A, const PlacedCore& B, double 
     c.a = deep.a;
     c.b = deep.b;
     c.overlap = true;
-    // Where curved surfaces graze, the polytope ends in slivers whose weights are noise.
+    // For grazing curved surfaces the polytope ends in slivers, whose weights are dominated by
+    // rounding.
     const double scale = std::max((A.support(deep.normal) - A.centre()).norm(),
                                   (B.support(-deep.normal) - B.centre()).norm());
     if (((c.a - c.b) - deep.depth * deep.normal).norm() > 1e-2 * deep.depth + 1e-6 * scale)

@@ -11,9 +11,9 @@ namespace {
 /// Faces steeper than this against the contact plane carry no area.
 constexpr double min_alignment = 0.05;
 
-/// A corner of the polygon being cut: place in the contact plane and height along the normal on
-/// the subject's face. `side` labels the side that leaves it: the subject's (low bit 0) or one of
-/// the cutting polygon's (low bit 1).
+/// A corner of the polygon being clipped: position in the contact plane, and height along the
+/// normal on the subject's face. `side` labels the side that leaves it: the subject's (low bit 0)
+/// or one of the clipping polygon's (low bit 1).
 struct Corner {
   double u, v, height;
   uint64_t side;
@@ -71,12 +71,13 @@ uint64_t side_label(const SupportingFace& f, int i, bool subject) {
   return mix_key(subject ? 0 : 1, e) << 1 | (subject ? 0 : 1);
 }
 
-/// A polygon and the one that is left when it is cut.
+/// A polygon, and the part that remains when it is clipped.
 class Cutting {
  public:
   Polygon& polygon() { return polygons_[now_]; }
 
-  /// Keeps what is on the left of the line from p to q. `label()` is the cutting side's.
+  /// Keeps the part on the left of the line from p to q. `label()` is the label of the clipping
+  /// side.
   template <class Label>
   void cut(const Corner& p, const Corner& q, bool open, const Label& label) {
     const Polygon& in = polygons_[now_];
@@ -99,7 +100,7 @@ class Cutting {
       const Corner& c = in.corners[size_t(i)];
       const double sc = sides[size_t(i)];
       if (sc >= 0) out.add(c);
-      if (open && i + 1 == in.count) break;  // a segment has no side back
+      if (open && i + 1 == in.count) break;  // a segment has one side only
       const size_t j = i + 1 == in.count ? 0 : size_t(i + 1);
       const double sd = sides[j];
       if ((sc >= 0) == (sd >= 0)) continue;
@@ -116,7 +117,8 @@ class Cutting {
 };
 
 /// The key of a corner from the labels of the sides that meet there: two of the subject, one of
-/// each, or two of the cutter. Symmetric, so that it does not matter which face was cut.
+/// each, or two of the clipping polygon. Symmetric, so that it does not depend on which face was
+/// clipped.
 uint64_t corner_key(uint64_t in, uint64_t out, bool subject_is_a) {
   const bool in_cutter = in & 1, out_cutter = out & 1;
   const uint64_t x = in >> 1, y = out >> 1;

@@ -6,10 +6,10 @@ namespace tumble {
 
 /// Projects two supporting faces along `normal` (unit, from A to B) and adds the corners of their
 /// common area as contact points: corners of one over the other, and crossings of sides. Gaps are
-/// measured along the normal between the two planes, less `rounding` (both shapes' together);
-/// points with gap > margin are left out. Points, segments and polygons in any pairing; a pair
-/// with a point, or two segments that are not parallel, adds nothing (the closest points do).
-/// `shift` is the share of the rounding on A's side, to place points midway.
+/// measured along the normal between the two planes, less both radii of rounding; points with gap >
+/// margin are left out. Accepts points, segments and polygons in any pairing; a pair with a point,
+/// or two segments that are not parallel, adds nothing (the closest points suffice). Points lie
+/// midway between the two rounded surfaces.
 void clip_faces(const SupportingFace& a, const SupportingFace& b, const Vec3& normal,
                 double rounding_a, double rounding_b, double margin, ManifoldBuilder& out);
 

@@ -5,8 +5,8 @@
 namespace tumble {
 namespace {
 
-/// Whether all points of a manifold are about as near: then no other point of the surface will be
-/// nearer soon.
+/// Whether all points of a manifold are about equally near: other points of the surface will then
+/// not touch soon.
 bool level(const Manifold& m) {
   constexpr double share = 2e-3;  // of its size
   double least = m.points[0].gap, most = least, reach2 = 0;

@@ -8,15 +8,15 @@
 
 namespace tumble {
 
-/// Two shapes to be tested, in a frame with world axes and its origin at A, so that contacts keep
-/// their digits far from the world's origin.
+/// Two shapes to be tested, in a frame with world axes and its origin at A, so that contacts lose
+/// no accuracy far from the world's origin.
 struct ShapePair {
   const Shape& a;
   const Shape& b;
   Pose pose_a, pose_b;             ///< pair frame
   Vec3 origin;                     ///< of the pair frame in the world [m]
   double margin;                   ///< points with a larger gap are left out [m]
-  const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for that of every mesh
+  const HierarchyKind* hierarchy;  ///< for mesh against mesh; null for the boxes of every mesh
   std::span<const uint64_t> kept;  ///< ContactQuery::kept
   const ClosestFeatures* start;    ///< ContactQuery::start
   double* apart;                   ///< ContactQuery::apart
@@ -34,14 +34,14 @@ struct ShapePair {
         start(query.start),
         apart(query.apart) {}
 
-  /// Says that the shapes are farther apart than the margin: a bound on their distance, right up to
+  /// Reports that the shapes are farther apart than the margin: `distance` is a lower bound, up to
   /// the rounding of lengths of `scale`.
   void found_apart(double distance, double scale) const {
     if (apart) *apart = std::max(*apart, distance - 1e-14 * scale);
   }
 };
 
-/// Emits the manifold of the candidates, if any, in world axes.
+/// Appends the manifold of the candidates, if there are any, in world coordinates.
 inline void emit(const ShapePair& pair, const ManifoldBuilder& points, const Vec3& normal,
                  uint64_t part, std::vector<Manifold>& out) {
   if (points.count() == 0) return;
@@ -53,13 +53,13 @@ inline void emit(const ShapePair& pair, const ManifoldBuilder& points, const Vec
 /// Added to Manifold::part where one part has two manifolds.
 constexpr uint64_t second_manifold = uint64_t{1} << 32;
 
-/// Emits the candidates of a surface that need not be flat, in world axes: a manifold and, unless
-/// all its points are about as near, a second one of those that the first leaves out, which rocking
-/// brings down next. The candidates are used up.
+/// Appends the candidates of a surface that need not be flat, in world coordinates: a manifold and,
+/// unless its points are all nearly equally near, a second one of the points that are left out,
+/// which a rocking body touches next. Empties `points`.
 void emit_nearest(const ShapePair& pair, std::vector<ManifoldPoint>& points, const Vec3& normal,
                   uint64_t part, std::vector<Manifold>& out);
 
-/// Finds the contacts of one kind of pair.
+/// A routine that finds the contacts of a pair of shape types.
 using CollidePair = void (*)(const ShapePair& pair, std::vector<Manifold>& out);
 
 }  // namespace tumble

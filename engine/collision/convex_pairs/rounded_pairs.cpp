@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint64_t centre_feature = feature_key(FeaturePair::closest, 0, 0);
 
-/// One point between rounded cores whose nearest points are p (of A) and q (of B). `fallback` is
-/// the normal when they coincide.
+/// One contact point between rounded cores whose nearest points are p (of A) and q (of B).
+/// `fallback` is the normal if these coincide.
 void point_contact(const ShapePair& pair, const Vec3& p, const Vec3& q, double ra, double rb,
                    const Vec3& fallback, std::vector<Manifold>& out) {
   const Vec3 d = q - p;
@@ -36,7 +36,7 @@ struct Axis {
   Vec3 direction() const { return p1 - p0; }
 };
 
-/// Some unit vector across d.
+/// Some unit vector perpendicular to d.
 Vec3 across(const Vec3& d) {
   int axis = 0;
   d.cwiseAbs().minCoeff(&axis);
@@ -71,7 +71,7 @@ void collide_capsule_capsule(const ShapePair& pair, std::vector<Manifold>& out) 
   Vec3 n = s.direction().cross(t.direction());
   n = n.squaredNorm() > 1e-16 ? Vec3(n.normalized()) : across(s.direction() + t.direction());
   if (distance > 1e-12 * (ra + rb)) n = (near.on_b - near.on_a) / distance;
-  // Lying along each other: the two ends of the overlap.
+  // Parallel axes: the two ends of the overlap.
   ManifoldBuilder points;
   SupportingFace fa, fb;
   for (uint32_t k = 0; k < 2; ++k) {
@@ -102,7 +102,7 @@ void collide_sphere_box(const ShapePair& pair, std::vector<Manifold>& out) {
     point_contact(pair, pair.pose_a.x, pair.pose_b.point(q), a.radius(), 0, Vec3::UnitY(), out);
     return;
   }
-  // The centre is inside: out through the nearest face.
+  // The centre is inside: the normal is that of the nearest face.
   int axis = 0;
   const double depth = (h - c.cwiseAbs()).minCoeff(&axis);
   const Vec3 outward = (c[axis] < 0 ? -1.0 : 1.0) * Vec3::Unit(axis);

@@ -17,7 +17,7 @@ SurfacePoint nearest_of(const ConvexShape& shape, const Vec3& p) {
 
 namespace {
 
-/// One convex shape and one field.
+/// Search for the contacts of one convex shape and one field.
 class RoundSearch {
  public:
   RoundSearch(const ConvexShape& shape, const Pose& pose, const DistanceField& field, double margin,
@@ -57,7 +57,8 @@ class RoundSearch {
   Vec3 placed(const Vec3& p) const { return pose_.x + R_ * p; }
   FieldPoint at(const Vec3& x) const { return field_point(field_, x); }
 
-  /// What the solid has in a cube lies in a ball about the solid's point nearest to its middle.
+  /// The part of the solid in a cube lies in a ball about the solid's point nearest to the cube's
+  /// centre.
   void cube(const Vec3& centre, double half) {
     const double corner = std::sqrt(3.0) * half;
     const SurfacePoint near = nearest_of(shape_, local(centre));
@@ -79,10 +80,11 @@ class RoundSearch {
       cube(centre + 0.5 * half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), 0.5 * half);
   }
 
-  /// Whether no point of the solid within `reach` of p is below a depth. Seen from p itself the
-  /// distance falls by `reach` at most. From a place `up` above it, where it is `up` more, it falls
-  /// by the way there: those points are `under` below p at most, so that they lie in the ball of
-  /// radius sqrt(up^2 + 2 up under + reach^2) about that place.
+  /// Whether no point of the solid within `reach` of p is deeper than `depth`. From p itself the
+  /// distance decreases by `reach` at most. From the point `up` above p, where the distance is `up`
+  /// greater, it decreases by the distance to that point: the solid's points are at most `under`
+  /// below p, so that they lie in the ball of radius sqrt(up^2 + 2 up under + reach^2) about that
+  /// point.
   bool none_below(double depth, const FieldPoint& p, double reach) const {
     if (p.distance - reach > depth) return true;
     if (!p.has_direction()) return false;
@@ -94,7 +96,7 @@ class RoundSearch {
     return field_.value(p.x + up * n) - ball > depth;
   }
 
-  /// The point of the solid farthest against a direction.
+  /// The support point of the solid along -n.
   Vec3 farthest(const Vec3& n) const {
     const Vec3 down = -(R_.transpose() * n);
     return placed(shape_.support(down) + shape_.rounding() * down);
@@ -106,7 +108,7 @@ class RoundSearch {
         minima(), [&](const FieldPoint& m) { return (m.x - x).squaredNorm() < near * near; });
   }
 
-  /// Down to a local minimum, unless that is known.
+  /// Descends to a local minimum, unless that is known already.
   void descend(FieldPoint p) {
     if (!p.has_direction()) return;
     const double arrived = tolerances::arrived * size_;
@@ -140,8 +142,8 @@ class RoundSearch {
     out_.push_back({p.x - 0.5 * p.distance * n, n, p.distance, feature_key(kind, id, 0)});
   }
 
-  /// The corners of the face that lies on the field there, and the minimum itself where it is lower
-  /// than all of them.
+  /// Adds the corners of the face that lies on the field there, and the minimum itself if it is
+  /// lower than all of them.
   void put_out(const FieldPoint& m) {
     const Vec3 n = m.normal();
     SupportingFace face;
@@ -163,9 +165,10 @@ class RoundSearch {
   Mat3 R_;
   const DistanceField& field_;
   double margin_, size_, tolerance_;
-  double start_half_ = 0;  ///< of the cubes that searches start in [m]
-  double floor_ = 0;       ///< nothing is deeper by the field at the solid's middle [m]
-  double deepest_ = std::numeric_limits<double>::infinity();  ///< of the minima [m]
+  double start_half_ = 0;  ///< half side of the cubes in which descents start [m]
+  /// Lower bound of the depth of any point, by the field at the solid's centre [m].
+  double floor_ = 0;
+  double deepest_ = std::numeric_limits<double>::infinity();  ///< of the minima found [m]
   std::vector<FeatureContact>& out_;
   double apart_ = std::numeric_limits<double>::infinity();
 };

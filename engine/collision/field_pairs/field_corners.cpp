@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-/// How deep a corner may be below a mesh [of the smaller size]: as mesh against mesh.
+/// Depth up to which corners below a mesh are contacts, relative to the smaller size: as for mesh
+/// against mesh.
 constexpr double reach_of_size = 0.01;
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 namespace tumble {
 
-/// Contacts of the active corners of a field's mesh, at rest in the frame, with a convex solid at
-/// `pose`, within `margin`: its corners may touch a face of the solid far from all corners of that.
-/// Normals point out of the solid; keys are those of corners.
+/// Contacts, within `margin`, of the active corners of a field's mesh with a convex solid at
+/// `pose`, in the frame of the mesh: a corner may touch a face of the solid far from all of the
+/// solid's corners. Normals point out of the solid; keys are those of the mesh's corners.
 void corners_in_convex(const PlacedSurface& corners, const ConvexShape& solid, const Pose& pose,
                        double margin, std::vector<FeatureContact>& contacts);
 
-/// The same with a mesh that has no field: by the faces near each corner (mesh_pairs).
+/// The same with a mesh that has no field, by the faces near each corner (mesh_pairs).
 void corners_on_mesh(const PlacedSurface& corners, const PlacedSurface& mesh, double margin,
                      std::vector<FeatureContact>& contacts);
 

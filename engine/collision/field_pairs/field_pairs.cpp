@@ -19,13 +19,14 @@ PlacedSurface at_home(const Shape& shape) {
   return placed(shape, Pose{});
 }
 
-/// Contacts as they are found, in the frame of one of the two shapes.
+/// Contacts during the search, in the frame of one of the two shapes.
 class Found {
  public:
   explicit Found(std::vector<FeatureContact>& contacts) : contacts_(contacts) { contacts.clear(); }
 
-  /// Turns what was added since the last call from the frame of a shape at `frame` to that of the
-  /// pair. `of_b`: the normals point out of B, not of A; `side` tells the keys of both sides apart.
+  /// Transforms the contacts added since the last call from the frame of a shape at `frame` to that
+  /// of the pair. `of_b`: their normals point out of B, not of A; `side` distinguishes the keys of
+  /// the two searches.
   void turn(const Pose& frame, bool of_b, uint64_t side) {
     const Mat3 R = frame.q.toRotationMatrix();
     for (; done_ < contacts_.size(); ++done_) {
@@ -56,7 +57,7 @@ std::vector<FeatureContact>& memory() {
   return contacts;
 }
 
-/// Whether nothing can be near; then the pair knows how far apart it is.
+/// Whether the distance exceeds the margin, which is then reported to the pair.
 bool apart(const ShapePair& pair, double distance) {
   if (distance <= pair.margin) return false;
   pair.found_apart(distance, pair.pose_b.x.cwiseAbs().sum() + pair.a.bounding_radius() +

@@ -4,18 +4,18 @@
 
 namespace tumble {
 
-/// What a field says at a point, in its own frame.
+/// The sample of a field at a point, in the field's frame.
 struct FieldPoint {
   Vec3 x = Vec3::Zero();
   double distance = 0;           ///< [m]
-  Vec3 gradient = Vec3::Zero();  ///< of about unit length; short on a ridge of the distance
+  Vec3 gradient = Vec3::Zero();  ///< about unit length; shorter where two sides are equally near
   double error = 0;              ///< of the distance [m]
 
   bool has_direction() const {
     return gradient.squaredNorm() > tolerances::no_gradient * tolerances::no_gradient;
   }
   Vec3 normal() const { return gradient.normalized(); }
-  /// The exact distance is no less anywhere within `way` of the point [m].
+  /// Lower bound of the exact distance at any point within `way` of this one [m].
   double least_within(double way) const { return distance - error - way; }
 };
 

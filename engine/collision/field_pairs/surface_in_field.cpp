@@ -22,7 +22,7 @@ bool sticks_out_along(const PlacedSurface& S, uint32_t vertex, const Vec3& inwar
 
 namespace {
 
-/// What the field says at the vertices of one surface, each asked once.
+/// Samples of the field at the vertices of a surface, each computed once.
 class VertexSamples {
  public:
   void begin(size_t vertices) {
@@ -45,7 +45,7 @@ class VertexSamples {
   uint64_t now_ = 0;
 };
 
-/// One surface and one field.
+/// Search for the contacts of one surface and one field.
 class SurfaceSearch {
  public:
   SurfaceSearch(const PlacedSurface& S, const DistanceField& field, double margin,
@@ -102,10 +102,10 @@ class SurfaceSearch {
     }
   }
 
-  /// Where a corner of a face that is large for the field lies at an edge of the field's mesh, the
-  /// field there leads to the edge's other side, and the corner says nothing about the two faces.
-  /// What they have in common begins farther inside: on the way from the corner to the middle of
-  /// the triangle's inscribed circle.
+  /// If a corner of a face that is large relative to the field lies at an edge of the field's mesh,
+  /// the gradient there points to the other side of that edge, and the corner says nothing about
+  /// the contact of the two faces. Their common area begins farther inside: it is searched for from
+  /// the corner towards the centre of the triangle's inscribed circle.
   void face(uint32_t t) {
     const Triangle& ids = S_.s.mesh->triangles[t];
     const Vec3 a = S_.vertex(ids[0]), b = S_.vertex(ids[1]), c = S_.vertex(ids[2]);
@@ -142,7 +142,8 @@ class SurfaceSearch {
     out_.push_back({p.x - 0.5 * p.distance * n, n, p.distance, key});
   }
 
-  /// A piece of an edge between two points: divided until no longer than the field's own detail.
+  /// Searches a piece of an edge between two points, which is divided until it is no longer than
+  /// the field's detail.
   void piece(uint32_t e, const FieldPoint& a, const FieldPoint& b) {
     const Vec3 way = b.x - a.x;
     const double length = way.norm();
@@ -158,10 +159,10 @@ class SurfaceSearch {
     ++piece_number_;
   }
 
-  /// Where along the piece the distance stops falling or starts to rise, if it does: at a lowest
-  /// place, or at the end of a stretch that lies level on the field. The normal there is that of
-  /// the level stretch, or what the gradient is across the edge: in the cells about an edge of the
-  /// field's mesh gradients lean over to the other side.
+  /// Finds where along the piece the distance stops decreasing or starts to increase, if it does:
+  /// at a lowest point, or at the end of a stretch of constant distance. The normal there is that
+  /// of the stretch, or the part of the gradient perpendicular to the edge: in cells at an edge of
+  /// the field's mesh gradients are tilted to the other side.
   void lowest(uint32_t e, FieldPoint a, FieldPoint b, const Vec3& along) {
     constexpr double level = tolerances::level_slope;
     const double at_a = a.gradient.dot(along), at_b = b.gradient.dot(along);

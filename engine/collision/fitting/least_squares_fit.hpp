@@ -5,13 +5,13 @@
 
 namespace tumble {
 
-/// Root of the mean square of the distances of points from a primitive's surface [m].
+/// Root mean square of the distances of points from a primitive's surface [m].
 double surface_misfit(const PrimitiveKind& kind, const PrimitiveGuess& guess,
                       std::span<const Vec3> points);
 
-/// The primitive near `guess` whose surface runs nearest to the points in the mean square:
-/// Levenberg-Marquardt (Marquardt 1963) over centre, turn and sizes, derivatives by differences.
-/// `scale` [m] is the size of the whole.
+/// The primitive near `guess` whose surface has the least mean square distance from the points:
+/// Levenberg-Marquardt (Marquardt 1963) over centre, rotation and sizes, with derivatives by finite
+/// differences. `scale` [m] is the size of the whole.
 PrimitiveGuess fit_least_squares(const PrimitiveKind& kind, PrimitiveGuess guess,
                                  std::span<const Vec3> points, double scale);
 

@@ -7,24 +7,24 @@
 
 namespace tumble {
 
-/// A shape at its place in the frame of a mesh.
+/// A shape with its pose in the frame of a mesh.
 struct PlacedShape {
   std::shared_ptr<const Shape> shape;
   Pose pose;
 };
 
-/// Hausdorff distance of two solids, both ways [m].
+/// Hausdorff distance of two solids, in both directions [m].
 struct SolidError {
-  double added = 0;    ///< how far the shapes reach outside the mesh
-  double missing = 0;  ///< how far the mesh stands out of the shapes
+  double added = 0;    ///< how far the shapes extend beyond the mesh
+  double missing = 0;  ///< how far the mesh extends beyond the shapes
   double larger() const { return added > missing ? added : missing; }
 };
 
-/// Of the union of convex shapes against a mesh, as sampled by `samples` random lines through each
-/// shape and as many points of the mesh's surface, its corners among them (at least those of the
-/// whole size). Points of the shapes' insides count too, so that a filled hollow shows. With
-/// `closed` the mesh is a solid; else it is a surface, and only the shapes' surfaces count.
-/// Low-discrepancy sequences (Halton 1960): the same on every machine.
+/// Error of a union of convex shapes against a mesh, sampled by `samples` random lines through each
+/// shape and as many points of the mesh's surface, its corners included (at least those of the
+/// whole size). Points inside the shapes count too, so that a filled cavity is seen. With `closed`
+/// the mesh is a solid; otherwise it is a surface, and only the shapes' surfaces count. The samples
+/// are low-discrepancy sequences (Halton 1960), the same on every machine.
 SolidError solid_error(std::span<const PlacedShape> shapes, const Hierarchy& surface, bool closed,
                        size_t samples);
 

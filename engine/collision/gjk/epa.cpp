@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Between the bounds when it ends, in units of the scale.
+/// Difference of the bounds at which the search ends, in units of the scale.
 constexpr double depth_met = 2e-13;
 /// Differences thinner than this count as flat, in units of the scale.
 constexpr double flat = 1e-13;
@@ -40,7 +40,7 @@ class Expansion3 {
   double best_depth_ = std::numeric_limits<double>::infinity();
 };
 
-/// Support along unit n; the least height found so far is the depth that is answered.
+/// Support along unit n; the least height found so far is the depth of the result.
 DifferencePoint Expansion3::probe(const Plain3& n) {
   const DifferencePoint p = difference_.support(n);
   const double height = n.dot(p.w);
@@ -48,8 +48,8 @@ DifferencePoint Expansion3::probe(const Plain3& n) {
   return p;
 }
 
-/// Four corners with volume from gjk()'s simplex and supports across it. False when the difference
-/// is flat; the depth is then what the probes found.
+/// Four corners with volume, from gjk()'s simplex and supports perpendicular to it. False if the
+/// difference is flat; the depth is then the least height of the supports.
 bool Expansion3::blow_up(const Simplex& s, std::array<DifferencePoint, 4>& c) {
   size_t count = size_t(s.count);
   std::copy_n(s.points.begin(), count, c.begin());
@@ -87,7 +87,7 @@ bool Expansion3::blow_up(const Simplex& s, std::array<DifferencePoint, 4>& c) {
   return true;
 }
 
-/// The points of A and B that make the point of the face nearest to the origin.
+/// Computes the points of A and B whose difference is the point of the face nearest to the origin.
 void Expansion3::witness(int face, EpaResult& r) const {
   Simplex s;
   for (int c : polytope_.face(face).corner) s.add(polytope_.vertex(c));

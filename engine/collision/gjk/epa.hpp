@@ -17,7 +17,8 @@ struct EpaResult {
   bool converged = false;  ///< the bounds met within the tolerance
 };
 
-/// The polytope before it grows, for drawing; null costs one test a growth. All in A's own frame.
+/// The polytope before each expansion, for drawing; null costs one test per expansion. All in A's
+/// frame.
 struct EpaStage {
   std::vector<std::array<Vec3, 3>> faces;  ///< counter-clockwise seen from outside
   size_t nearest = 0;                      ///< the face nearest to the origin
@@ -29,14 +30,14 @@ using EpaTrace = std::vector<EpaStage>;
 
 /// Depth and direction of penetration of two cores that gjk() found to intersect: the expanding
 /// polytope algorithm (van den Bergen, "Proximity queries and penetration depth computation on 3D
-/// game objects", 2001). `start` is gjk()'s simplex. A polytope inside the difference grows at the
-/// face nearest to the origin, a lower bound of the depth, until the support plane along that
-/// face's normal, an upper bound, meets it: within 2e-13 of the scale for polyhedra (with certain
-/// supports, and a hull whose decisions are right, polytope.hpp), and within `relative_tolerance`
-/// of the depth as well for curved cores.
-/// Whatever happens, the answer is safe: `depth` is the support of the difference along `normal`,
-/// so the move always separates. Differences without volume (flat against flat) have depth 0 along
-/// their thin direction.
+/// game objects", 2001). `start` is gjk()'s simplex. A polytope inside the difference is expanded
+/// at the face nearest to the origin, whose distance is a lower bound of the depth, until it meets
+/// the support plane along that face's normal, an upper bound: within 2e-13 of the scale for
+/// polyhedra (with exact supports, and a hull whose decisions are right, polytope.hpp), and for
+/// curved cores also within `relative_tolerance` of the depth.
+/// In every case the result is safe: `depth` is the support of the difference along `normal`, so
+/// the move always separates. A difference without volume (two parallel flat cores) has depth 0
+/// along its thin direction.
 EpaResult epa(const PlacedCore& A, const PlacedCore& B, const Simplex& start,
               double relative_tolerance = 1e-9, EpaTrace* trace = nullptr);
 

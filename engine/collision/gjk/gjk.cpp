@@ -10,9 +10,9 @@ namespace {
 
 // In units of the scale.
 constexpr double touching = 1e-14;          ///< distances that cannot be told from contact
-constexpr double bounds_met = 1e-13;        ///< between the bounds, to end
-constexpr double bounds_allowed = 1e-12;    ///< between the bounds, at worst
-constexpr double support_rounding = 4e-15;  ///< of the height of a support plane
+constexpr double bounds_met = 1e-13;        ///< difference of the bounds at which the search ends
+constexpr double bounds_allowed = 1e-12;    ///< largest difference of the bounds of a result
+constexpr double support_rounding = 4e-15;  ///< error of the height of a support plane
 
 enum class Step { onward, separated, intersecting, beyond, stuck };
 
@@ -33,7 +33,7 @@ Step after(Reduction r) {
                                    : Step::onward;
 }
 
-/// Which places of a simplex hold the corners that count, the oldest first.
+/// The places of a simplex that hold its current corners, the oldest first.
 struct Order {
   int place[4];
   int count = 0;
@@ -85,7 +85,7 @@ class Search {
   void gather(const Order& order);
   [[gnu::noinline]] Step go_on_precisely();
   Step advance_precisely();
-  /// What the support plane through w says.
+  /// Evaluates the support plane through w.
   [[gnu::always_inline]] inline Step judge(const NearestPoint& near, const Plain3& w);
   void write(Step step);
 
@@ -94,18 +94,18 @@ class Search {
   Difference difference_;
   double scale_, tolerance_, tolerance2_, tiny2_, farthest2_;
   NearestPoint near_;
-  DifferencePoint points_[4];  ///< of the fast search, in no order
+  DifferencePoint points_[4];  ///< of the fast search, in arbitrary order
   double plane_ = 0;           ///< height of the last support plane times |v| [m^2]
 };
 
-/// The direction to look in first: opposite to it, so that it counts as a nearest point.
+/// The opposite of the first search direction, in the role of a nearest point.
 inline Plain3 Search::first_direction() const {
   const Vec3& given = options_.initial_direction;
   const Plain3 d = given == Vec3::Zero() ? -difference_.centre() : difference_.direction_in(given);
   return d == Plain3{0, 0, 0} ? Plain3{1, 0, 0} : d;
 }
 
-/// Takes up the vertices of an earlier simplex.
+/// Starts from the vertices of an earlier simplex.
 Step Search::recall(const Simplex& earlier) {
   Simplex& s = r_.simplex;
   DifferencePoint p;
@@ -123,16 +123,16 @@ inline Step Search::judge(const NearestPoint& near, const Plain3& w) {
   plane_ = near.v.dot(w);
   if (plane_ * std::abs(plane_) > farthest2_ * near.vv) return Step::beyond;
   const double between = near.vv - plane_;
-  // one jump for both
+  // one branch for both
   const bool met = (between <= options_.relative_tolerance * near.vv) |
                    (between * between <= tolerance2_ * near.vv);
   return met ? Step::separated : Step::onward;
 }
 
-/// In double precision. All in one function and by value, so that what a step finds stays in
-/// registers: a vector that goes through memory number by number, and comes back in pairs, makes
-/// the processor wait. For the same reason corners stay where they were put down, and only the list
-/// of those that count changes.
+/// The search in double precision. All in one function and by value, so that intermediate results
+/// stay in registers: a vector that is stored number by number and loaded in pairs stalls the
+/// processor. For the same reason corners stay at their place in memory, and only the list of
+/// current ones changes.
 template <class Scan>
 Step Search::run_fast() {
   Simplex& s = r_.simplex;
@@ -183,7 +183,7 @@ inline bool Search::holds(const Order& order, const Plain3& w) const {
   return false;
 }
 
-/// `a`, at `place`, is the newest corner. Unclear or inside, all corners stay.
+/// `a`, at `place`, is the newest corner. If the result is unclear or inside, all corners stay.
 inline Step Search::reduce_fast(const Plain3& a, int place, Order& order, NearestPoint& next) {
   const auto corner = [&](int k) { return one_by_one(points_[order.place[k]].w); };
   SimplexSide side;
@@ -206,7 +206,7 @@ inline Step Search::reduce_fast(const Plain3& a, int place, Order& order, Neares
   return Step::onward;
 }
 
-/// The corners that count to the front, in their order.
+/// Moves the current corners to the front, in their order.
 inline void Search::gather(const Order& order) {
   Simplex& s = r_.simplex;
   s.count = order.count;
@@ -222,7 +222,7 @@ Step Search::advance_precisely() {
   p = difference_.support_against<ScanByTwo>(near_.along);
   const Step step = judge(near_, p.w);
   if (step != Step::onward) return step;
-  // after the bounds have been told: those of an earlier v would be too near to each other
+  // after the bounds are set: those of an earlier v would be too close to each other
   if (++r_.iterations > options_.max_iterations) return Step::stuck;
   if (s.contains(p.w)) return Step::stuck;
   ++s.count;

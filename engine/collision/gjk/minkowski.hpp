@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// A core placed in the frame of a query (world axes, any origin near the pair, so that distances
-/// do not lose digits far from the world's origin).
+/// A core placed in the frame of a query: world axes, with an origin near the pair, so that
+/// distances lose no accuracy far from the world's origin.
 struct PlacedCore {
   const ConvexCore* core = nullptr;
   Mat3 R = Mat3::Identity();
@@ -29,15 +29,15 @@ struct PlacedCore {
   }
 };
 
-/// A point of the Minkowski difference A - B, with the points of A and B that make it, all in A's
-/// own frame, and the numbers of their vertices (curved cores have none).
+/// A point of the Minkowski difference A - B, with the points of A and B that it is the difference
+/// of, all in A's frame, and the indices of their vertices (no_core_vertex for curved cores).
 struct DifferencePoint {
   Plain3 w, a, b;
   uint32_t vertex_a, vertex_b;
 };
 
-/// The difference of two cores in A's own frame. Each vertex of B is rounded once on its way there
-/// (4e-16 of `scale`); from then on points of the difference count as exact.
+/// The difference of two cores in A's frame. Each vertex of B is rounded once when it is
+/// transformed to it (4e-16 of `scale`); after that the points of the difference count as exact.
 class Difference {
  public:
   template <class Scan = ScanByTwo>
@@ -45,9 +45,9 @@ class Difference {
   Difference(const Difference&) = delete;
   Difference& operator=(const Difference&) = delete;
 
-  /// The point furthest along d (any length), up to the rounding of its height.
+  /// The support point along d (any length), up to the rounding of its height.
   DifferencePoint support(const Plain3& d) const { return support_against<ScanByTwo>(-d); }
-  /// The point furthest against n.
+  /// The support point along -n.
   template <class Scan>
   DifferencePoint support_against(const Plain3& n) const {
     Plain3 a, b;
@@ -65,18 +65,18 @@ class Difference {
     }
     return {a - b, a, b, vertex_a, vertex_b};
   }
-  /// Whether both cores are hulls of points.
+  /// Whether both cores are convex hulls of points.
   bool always_polyhedral() const {
     return a_.view.kind != CoreView::Kind::general && b_.view.kind != CoreView::Kind::general;
   }
-  /// The point made by two vertices of an earlier query; false when there are none such.
+  /// The point made of two vertices of an earlier query; false if there are no such vertices.
   bool recall(uint32_t vertex_a, uint32_t vertex_b, DifferencePoint& p) const;
 
   /// From B's centre to A's.
   Plain3 centre() const { return Plain3::of(a_.view.centre) - from_b(Plain3::of(b_.view.centre)); }
-  /// A length that all coordinates stay below: both reaches and the distance of the origins [m].
+  /// Upper bound of all coordinates: both reaches and the distance of the origins [m].
   double scale() const { return scale_; }
-  /// Directions and points from and to the frame of the query.
+  /// Directions and points from the frame of the query to A's frame, and back.
   Vec3 direction_out(const Plain3& d) const { return A_.R * d.vec(); }
   Vec3 point_out(const Plain3& p) const { return A_.x + A_.R * p.vec(); }
   Plain3 direction_in(const Vec3& d) const { return Plain3::of(A_.R.transpose() * d); }
@@ -97,14 +97,14 @@ class Difference {
   Side a_, b_;
   PaddedPose relative_;
   double scale_;
-  /// Up to eight vertices of B, brought to A's frame at once.
+  /// If B has at most eight vertices, they are transformed to A's frame once.
   static constexpr uint32_t most_few = 8;
   alignas(32) std::array<double, 3 * most_few> few_coordinates_;
   VertexCloudView few_;
   bool both_few_ = false;
 };
 
-/// Vertex number of points on curved cores.
+/// Vertex index of points on curved cores.
 constexpr uint32_t no_core_vertex = std::numeric_limits<uint32_t>::max();
 
 template <class Scan>

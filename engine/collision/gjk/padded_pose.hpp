@@ -6,22 +6,22 @@
 
 namespace tumble {
 
-/// The pose of B in A's own frame: columns of the rotation and the shift, padded to the width of
-/// registers.
+/// The pose of B in A's frame: columns of the rotation and the translation, padded to the width of
+/// SIMD registers.
 struct PaddedPose {
-  alignas(32) double column[4][4];  ///< the fourth is the shift [m]
+  alignas(32) double column[4][4];  ///< the fourth is the translation [m]
 
   Plain3 row(size_t k) const { return {column[0][k], column[1][k], column[2][k]}; }
   Plain3 shift() const { return {column[3][0], column[3][1], column[3][2]}; }
-  /// A point of B's frame in A's.
+  /// Transforms a point from B's frame to A's.
   Plain3 operator*(const Plain3& p) const {
     return Plain3{row(0).dot(p), row(1).dot(p), row(2).dot(p)} + shift();
   }
-  /// A direction of A's frame in B's.
+  /// Rotates a direction from A's frame to B's.
   Plain3 back(const Plain3& d) const { return row(0) * d.x + row(1) * d.y + row(2) * d.z; }
 
-  /// From the rotations of both and the way from A's origin to B's, all in one frame; by the scan's
-  /// registers, with the same roundings.
+  /// Computed from the rotations of both and the vector from A's origin to B's, all in one frame,
+  /// in the registers of `Scan`, with the same rounding for each.
   template <class Scan>
   void set(const Mat3& A, const Mat3& B, const Plain3& way) {
     const double *a = A.data(), *b = B.data();

@@ -13,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Error of a normal from a cross product, in units of |e1| |e2| / |e1 x e2|.
 constexpr double cross_rounding = 1e-15;
-/// Above this ratio the normal is worked out with twice the digits.
+/// Above this ratio the normal is computed in double-double arithmetic.
 constexpr double sliver = 64;
 
 }  // namespace
@@ -89,8 +89,8 @@ void Polytope::kill(int f) {
   dying_[size_t(dying_count_++)] = f;
 }
 
-/// Walks over the faces that see the new vertex, from `f` which was entered through `side`, and
-/// closes the hole with a fan along its rim.
+/// Traverses the faces that see the new vertex, from `f`, which was entered through `side`, and
+/// adds a fan along the horizon.
 bool Polytope::grow(int f, int side, int vertex) {
   const Face& face = faces_[size_t(f)];
   if (!face.alive) return true;
@@ -103,12 +103,12 @@ bool Polytope::grow(int f, int side, int vertex) {
     return true;
   }
   const int a = face.corner[size_t(side)], b = face.corner[size_t((side + 1) % 3)];
-  const int g = add_face(b, a, vertex);  // runs against the side it closes
+  const int g = add_face(b, a, vertex);  // opposite to the side that it closes
   if (g < 0) return false;
   link(g, 0, f, side);
   if (last_new_ >= 0) {
     if (faces_[size_t(last_new_)].corner[1] != b) return false;
-    link(last_new_, 1, g, 2);  // the rim is walked in one direction
+    link(last_new_, 1, g, 2);  // the horizon is traversed in one direction
   } else {
     first_new_ = g;
   }
@@ -129,7 +129,7 @@ bool Polytope::add(const DifferencePoint& p, int seen) {
   if (first_new_ < 0 || first_new_ == last_new_) return false;
   if (faces_[size_t(last_new_)].corner[1] != faces_[size_t(first_new_)].corner[0]) return false;
   link(last_new_, 1, first_new_, 2);
-  // their places are free only now that nothing points there
+  // their places become free only now that nothing refers to them
   for (int i = 0; i < dying_count_; ++i) free_[size_t(free_count_++)] = dying_[size_t(i)];
   return true;
 }

@@ -3,16 +3,17 @@
 
 namespace tumble {
 
-/// The convex hull of points of a difference, grown a point at a time: faces are triangles, those
-/// that see a new point give way to a fan from it. Whether a face sees a point is decided in double
-/// precision with a bound on its error, and in double-double where that does not do, so the hull
-/// stays convex and closed for needles, plates and parallel faces alike. Points in the plane of a
-/// face count as seen. On the stack, without allocations.
+/// The convex hull of points of a difference, extended by one point at a time: faces are triangles,
+/// and those that see a new point are replaced by a fan from it. Whether a face sees a point is
+/// decided in double precision with a bound on its error, and in double-double arithmetic if that
+/// is inconclusive, so that the hull stays convex and closed for needles, plates and parallel faces
+/// alike. Points in the plane of a face count as seen. Stored on the stack, without allocations.
 class Polytope {
  public:
   static constexpr int max_vertices = 256;
 
-  /// Side k runs from corner k to k + 1; beyond it is face next[k], whose side next_side[k] it is.
+  /// Side k runs from corner k to corner k + 1; the face beyond it is next[k], where it is side
+  /// next_side[k].
   struct Face {
     std::array<int, 3> corner, next, next_side;
     Plain3 normal;  ///< unit, outward
@@ -20,24 +21,24 @@ class Polytope {
     bool alive;
   };
 
-  /// The hull of four points with volume. False when they are in one plane.
+  /// Starts with the hull of four points; false if they are coplanar.
   bool start(const std::array<DifferencePoint, 4>& points);
-  /// Takes in a point outside of face `seen`. False when there is no room, or rounding left no
-  /// simple rim, which ends the hull's life.
+  /// Adds a point outside of face `seen`. False if there is no room, or if rounding left a horizon
+  /// that is not a simple loop; the hull is then unusable.
   bool add(const DifferencePoint& p, int seen);
 
   /// The face whose plane is nearest to the origin.
   int nearest_face() const;
-  /// Faces have numbers below this; some are dead.
+  /// Face indices are below this; some of the faces are dead.
   int face_slots() const { return face_count_; }
   const Face& face(int f) const { return faces_[size_t(f)]; }
-  /// Of a face's plane from the origin; infinite for dead faces.
+  /// Distance of a face's plane from the origin; infinite for dead faces.
   double offset(int f) const { return offset_[size_t(f)]; }
   const DifferencePoint& vertex(int v) const { return vertices_[size_t(v)]; }
   int vertex_count() const { return vertex_count_; }
 
  private:
-  /// Of the hull, and of those that fall while a point is taken in.
+  /// For the faces of the hull, and those that are removed while a point is added.
   static constexpr int max_faces = 4 * max_vertices;
   int add_face(int i, int j, int k);
   void link(int f, int side, int g, int other_side);

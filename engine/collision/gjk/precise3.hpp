@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// What double-double arithmetic leaves of the terms of a difference that vanishes.
+/// Rounding error of a vanishing difference in double-double arithmetic, relative to its terms.
 constexpr double precise_noise = 1e-29;
 
 using Precise3 = Triple<DoubleDouble>;
@@ -21,8 +21,8 @@ inline Precise3 precise_normal(const Plain3& a, const Plain3& b, const Plain3& c
   return (precise(b) - o).cross(precise(c) - o);
 }
 
-/// Six times the volume of a, b, c, p: positive when p is on the side from which they run
-/// counter-clockwise; 0 where 106 bits cannot tell.
+/// Six times the volume of the tetrahedron a, b, c, p: positive when p is on the side from which a,
+/// b, c run counter-clockwise; 0 if it is below the rounding error.
 inline double precise_volume(const Plain3& a, const Plain3& b, const Plain3& c, const Plain3& p) {
   const Precise3 n = precise_normal(a, b, c), d = precise(p) - precise(a);
   const double volume = n.dot(d).high;

@@ -1,15 +1,15 @@
-// The nearest point of a simplex with twice the digits.
+// The nearest point of a simplex in double-double arithmetic.
 #include "engine/collision/gjk/precise3.hpp"
 #include "engine/collision/gjk/simplex.hpp"
 
 namespace tumble {
 namespace {
 
-/// Triangles whose corners are nearer to one line than that have no normal that would be right to
-/// double precision; what doubles can say is far above it.
+/// Triangles whose corners are nearer to a line than this have no normal that is accurate to double
+/// precision; triangles of doubles that are not degenerate are far above it.
 constexpr double least_sine2 = 1e-38;
 
-/// A face of the simplex with the origin's projection in it.
+/// A face of the simplex that contains the origin's projection.
 struct PreciseFace {
   std::array<int, 4> corner;
   std::array<double, 4> weight;
@@ -22,8 +22,8 @@ bool positive(const DoubleDouble& d) {
   return d.high > 0;
 }
 
-/// The projection on the flat through the corners; false when it is outside the face, or the
-/// corners do not span one.
+/// Projects the origin on the affine hull of the corners; false if the projection is outside the
+/// face, or the corners are degenerate.
 bool project(const std::array<Precise3, 4>& p, PreciseFace& f) {
   const auto at = [&](int i) -> const Precise3& { return p[size_t(f.corner[size_t(i)])]; };
   if (f.count == 1) {

@@ -12,7 +12,7 @@ void keep_side(Simplex& simplex, SimplexSide& s) {
   simplex.keep(s.corner, s.count);
 }
 
-/// On a triangle, all three sides looked at.
+/// Nearest point on a triangle; all three sides are tested.
 void on_whole_triangle(const Simplex& simplex, int ia, int ib, int ic, SimplexSide& s) {
   const Plain3 &a = simplex.points[size_t(ia)].w, &b = simplex.points[size_t(ib)].w,
                &c = simplex.points[size_t(ic)].w;

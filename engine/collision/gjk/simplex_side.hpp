@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-/// Corners, sides and faces of a simplex, for the loops that go over them: inlined by force, so
-/// that the point they find stays in registers.
+/// Corners, sides and faces of a simplex, for the inner loops of GJK: always inlined, so that the
+/// nearest point stays in registers.
 namespace tumble {
 
-/// Corners that carry the nearest point, and the point.
+/// The corners that span the nearest point, and the point.
 struct SimplexSide {
   int corner[3];
   int count = 0;
   NearestPoint at{{}, std::numeric_limits<double>::infinity(), {}, 0};
 
-  /// In ascending order, so that corners that are kept move down.
+  /// Sorts corners in ascending order, so that corners that are kept move to lower indices.
   [[gnu::always_inline]] inline void sort() {
     if (count == 3 && corner[0] > corner[1]) std::swap(corner[0], corner[1]);
     if (count == 3 && corner[1] > corner[2]) std::swap(corner[1], corner[2]);
@@ -28,7 +28,7 @@ struct SimplexSide {
   s.at = {a, a.squared(), a, 0};
 }
 
-/// On the segment from a, which is new, to b.
+/// Nearest point on the segment from a, the new corner, to b.
 [[gnu::always_inline]] inline void on_segment(const Plain3& a, int ia, const Plain3& b, int ib,
                                               SimplexSide& s) {
   const Plain3 ab = b - a;
@@ -38,7 +38,7 @@ struct SimplexSide {
   s.at.along = length2 * a + along * ab;
   s.at.v = a + (along / length2) * ab;
   s.at.vv = s.at.v.squared();
-  // what cancellation left along the segment would tilt the support plane
+  // the rounding error along the segment would tilt the support plane
   if (s.at.vv < 1e-4 * length2) {
     s.at.v = s.at.v - (s.at.v.dot(ab) / length2) * ab;
     s.at.vv = s.at.v.squared();
@@ -48,7 +48,8 @@ struct SimplexSide {
   s.count = 2;
 }
 
-/// On the triangle with normal n = ab x ac, but not on its side bc alone.
+/// Nearest point on the triangle with normal n = ab x ac, given that it is not in the interior of
+/// side bc.
 [[gnu::always_inline]] inline void on_triangle(const Plain3& a, int ia, const Plain3& b, int ib,
                                                const Plain3& c, int ic, const Plain3& n,
                                                SimplexSide& s) {
@@ -72,14 +73,14 @@ struct SimplexSide {
   if (other.at.vv < s.at.vv) s = other;
 }
 
-/// Volumes (six times) below this cannot be told from zero. The argument is the square of the
-/// greatest distance of a corner from the origin.
+/// Volumes (six times that of the tetrahedron) below this cannot be told from zero. The argument is
+/// the squared greatest distance of a corner from the origin.
 [[gnu::always_inline]] inline double doubtful_volume(double size2) {
   return 1e-14 * size2 * std::sqrt(size2);
 }
 
-/// On the tetrahedron with corners 3 (a, which is new), 2 (b), 1 (c) and 0 (d), on a side that
-/// meets at a.
+/// Nearest point on the tetrahedron with corners 3 (a, the new one), 2 (b), 1 (c) and 0 (d), on a
+/// side that contains a.
 [[gnu::always_inline]] inline Reduction on_tetrahedron(const Plain3& a, const Plain3& b,
                                                        const Plain3& c, const Plain3& d,
                                                        SimplexSide& s) {
@@ -108,7 +109,7 @@ struct SimplexSide {
   return Reduction::outside;
 }
 
-/// The weights of v, which all corners carry. False where they miss it by more than the tolerance.
+/// Sets the weights of v, which all corners span. False if they miss it by more than the tolerance.
 inline bool weigh_in_double(Simplex& s, const Plain3& v, double tolerance) {
   const auto point = [&](size_t i) -> const Plain3& { return s.points[i].w; };
   s.weights = {1, 0, 0, 0};
@@ -124,7 +125,7 @@ inline bool weigh_in_double(Simplex& s, const Plain3& v, double tolerance) {
     const Plain3 pq = q - p, pr = r - p, n = pq.cross(pr);
     const double n2 = n.squared();
     if (n2 > 0) {
-      // areas across the plane of what is left of the origin beyond each side
+      // areas of the triangles of the origin's projection with two corners, relative to the whole
       const Plain3 o = -p;
       double wq = o.cross(pr).dot(n) / n2, wr = pq.cross(o).dot(n) / n2;
       wq = std::min(std::max(wq, 0.0), 1.0);

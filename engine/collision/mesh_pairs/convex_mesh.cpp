@@ -23,17 +23,17 @@ constexpr double along_face = 1 - 5e-9;
 constexpr double wedge = 0.02;
 
 /// One convex core (A) against the triangles of a mesh (B), query frame. `out` below is a unit
-/// direction out of the mesh; contacts take its opposite, from A to B. Of an open mesh the core is
-/// on one of two sides, which then is the outer one.
+/// direction out of the mesh; the normals of contacts, from A to B, are opposite. An open mesh has
+/// its outer side where the core is.
 struct Query {
   PlacedCore A;
   PlacedSurface B;
   double margin;
   std::vector<FeatureContact>& contacts;
-  double side = 1;  ///< -1: of an open mesh, behind it
+  double side = 1;  ///< -1: the core is behind an open mesh
 
   Vec3 face_normal(uint32_t f) const { return side * B.face_normal(f); }
-  /// Whether the surface sticks out there, or ends.
+  /// Whether the surface is convex there, or ends.
   bool active(const MeshEdge& edge) const {
     return edge.bend == EdgeBend::open ||
            edge.bend == (side > 0 ? EdgeBend::convex : EdgeBend::concave);
@@ -83,7 +83,7 @@ bool edge_faces(const PlacedSurface& B, const MeshEdge& edge, const Vec3& out) {
   return true;
 }
 
-/// Whether no edge of the vertex goes further along `out` than the vertex.
+/// Whether no edge of the vertex extends further along `out` than the vertex.
 bool vertex_faces(const PlacedSurface& B, uint32_t v, const Vec3& out) {
   const Vec3 p = B.vertex(v);
   for (uint32_t e : B.s.topology.edges_of_vertex(v)) {
@@ -94,8 +94,8 @@ bool vertex_faces(const PlacedSurface& B, uint32_t v, const Vec3& out) {
   return true;
 }
 
-/// The clipped faces of the core and of one feature of the mesh; the nearest points themselves
-/// where that gives nothing as near.
+/// Adds the points of the clipped faces of the core and of a feature of the mesh; the nearest
+/// points themselves if none of those is as near.
 void add_points(const Query& q, const SupportingFace& feature, const Vec3& out, const Vec3& on_a,
                 const Vec3& on_b, double gap, uint64_t key) {
   SupportingFace face;
@@ -122,13 +122,13 @@ SupportingFace face_of(const Query& q, const TriangleView& t) {
   return f;
 }
 
-/// The feature of a triangle on which a point lies that is on the triangle but for rounding.
+/// The feature of a triangle that contains a point, which is on the triangle up to rounding.
 TriangleFeature feature_at(const TriangleView& t, const Vec3& x) {
   const Vec3 w = closest_on_triangle(x, t.corner[0], t.corner[1], t.corner[2]).barycentric;
   constexpr double none = 1e-6;
   for (unsigned k = 0; k < 3; ++k) {
     if (w[k] >= none) continue;
-    const unsigned i = (k + 1) % 3, j = (k + 2) % 3;  // the side across from corner k
+    const unsigned i = (k + 1) % 3, j = (k + 2) % 3;  // the sides opposite to those corners
     if (w[i] < none) return TriangleFeature(j);
     if (w[j] < none) return TriangleFeature(i);
     return TriangleFeature(3 + i);
@@ -136,8 +136,8 @@ TriangleFeature feature_at(const TriangleView& t, const Vec3& x) {
   return TriangleFeature::face;
 }
 
-/// Contact of the core, apart from the triangle or in it by less than its rounding, at the feature
-/// of the triangle that holds the nearest point.
+/// Contact of a core that is outside the triangle, at the feature of the triangle that has the
+/// nearest point; the rounded shape may overlap it.
 void shallow(const Query& q, const TriangleView& t, const CoreContact& c) {
   const Vec3 out = -c.normal;
   const TriangleFeature feature = feature_at(t, c.b);
@@ -169,8 +169,9 @@ void shallow(const Query& q, const TriangleView& t, const CoreContact& c) {
       {0.5 * (c.a - r * out + c.b), c.normal, c.gap, feature_key(FeaturePair::face_vertex, 0, v)});
 }
 
-/// The core itself is in the triangle: out along the face's normal if its lowest part is below the
-/// triangle, else by the shortest way if that suits the feature there.
+/// Contact of a core that intersects the triangle: out along the face's normal if the core's lowest
+/// part projects into the triangle, otherwise along the shortest way out if it is valid for the
+/// feature there.
 void deep(const Query& q, const TriangleView& t, const CoreContact& c) {
   const double r = q.A.core->rounding();
   const Vec3 lowest = q.A.support(-t.normal);
@@ -202,7 +203,7 @@ void deep(const Query& q, const TriangleView& t, const CoreContact& c) {
       {foot + 0.5 * gap * t.normal, -t.normal, gap, feature_key(FeaturePair::vertex_face, 0, 0)});
 }
 
-/// Ends of a rounded core that have sunk below the surface altogether.
+/// Contacts for ends of a rounded core that are completely below the surface.
 void sunk_ends(const Query& q, std::span<const uint32_t> triangles, double reach) {
   SupportingFace ends;
   q.A.supporting_face(Vec3::UnitY(), ends);
@@ -223,14 +224,14 @@ void sunk_ends(const Query& q, std::span<const uint32_t> triangles, double reach
   }
 }
 
-/// One triangle that the core has entered.
+/// A triangle that the core intersects.
 struct Entered {
   TriangleView triangle;
   CoreContact contact;
 };
 
-/// Where no feature qualified though the core is in the mesh (deep across a ridge, say): out along
-/// whichever of the directions at hand clears all entered triangles soonest.
+/// If no feature was valid though the core intersects the mesh (as deep across a ridge): out along
+/// that of the available directions which clears all intersected triangles after the shortest way.
 void clear_all(const Query& q, std::span<const Entered> entered) {
   Vec3 best = Vec3::Zero(), sum = Vec3::Zero(), x = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity();

@@ -16,19 +16,20 @@ namespace tumble {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// See ContactRange::cone. Where surfaces cross and no feature qualifies, any sunk vertex will do.
+/// Values of ContactRange::cone; the second is used where surfaces cross and no feature is valid
+/// otherwise.
 constexpr double strict_cone = 0.6, any_cone = 2;
 
-/// More pairs of triangles than this are not looked at: where fine meshes meet, the range shrinks.
+/// Limit of the pairs of triangles that are tested: for fine meshes the range is reduced.
 constexpr size_t max_pairs = 20000;
 
-/// Memory that is kept from pair to pair.
+/// Scratch memory that is kept from pair to pair.
 struct Scratch {
   std::vector<TriangleIds> pairs, by_b, crossing;
   std::vector<uint32_t> near_a, near_b;
   std::vector<FeatureContact> contacts;
   std::vector<SunkVertex> sunk_a, sunk_b;
-  std::vector<PlacedEdge> edges_a;  ///< of the triangle at hand
+  std::vector<PlacedEdge> edges_a;  ///< of the current triangle
   OwnedEdges edges_b;
   double apart = 0;  ///< bound on the distance of surfaces without near pairs [m]
 };
@@ -40,7 +41,7 @@ struct MeshQuery {
   const HierarchyKind* hierarchy;
 };
 
-/// Where the run of pairs with the same first id ends that starts at `first`.
+/// End of the run of pairs with the same first id that starts at `first`.
 size_t end_of_run(const std::vector<TriangleIds>& pairs, size_t first) {
   size_t last = first + 1;
   while (last < pairs.size() && pairs[last].a == pairs[first].a) ++last;
@@ -61,7 +62,7 @@ void read_run_of(const std::vector<TriangleIds>& pairs, uint32_t id, std::vector
 }
 
 /// Vertices of one surface against the triangles of the other; `pairs` is sorted by the first id,
-/// which is the vertex's side.
+/// which belongs to the surface of the vertices.
 void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>& pairs,
                   std::vector<SunkVertex>& sunk) {
   const PlacedSurface &V = of_a ? q.A : q.B, &F = of_a ? q.B : q.A;
@@ -79,7 +80,7 @@ void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>&
         vertex_contacts(V, V.s.mesh->triangles[t][k], F, q.scratch.near_b, q.range, contacts, sunk);
   }
   for (size_t i = first_contact; i < contacts.size(); ++i) {
-    // so far the normal points out of F; it should point from A to B
+    // the normal points out of F; it should point from A to B
     if (of_a) contacts[i].normal = -contacts[i].normal;
     contacts[i].key = mix_key(contacts[i].key, of_a ? 0 : 1);
   }
@@ -87,7 +88,7 @@ void vertex_stage(const MeshQuery& q, bool of_a, const std::vector<TriangleIds>&
             [](const SunkVertex& x, const SunkVertex& y) { return x.vertex < y.vertex; });
 }
 
-/// Whether x (query frame) is inside the solid or on it.
+/// Whether x (query frame) is inside the solid or on its surface.
 bool inside(const PlacedSurface& S, const Vec3& x, std::span<const uint32_t> triangles,
             double depth) {
   const NearestFeature near =
@@ -95,8 +96,8 @@ bool inside(const PlacedSurface& S, const Vec3& x, std::span<const uint32_t> tri
   return near.triangle != no_index && (near.inside || near.distance < 1e-9 * S.s.size);
 }
 
-/// Whether an end of the edge is less deep in the other solid and leaves it another way: then it
-/// is that end which touches, and the edges only seem to be far past each other.
+/// Whether an end of the edge is less deep in the other solid and leaves it in another direction:
+/// then that end touches, and the edges only appear to overlap deeply.
 bool end_leaves_otherwise(const MeshEdge& edge, const std::vector<SunkVertex>& sunk, double depth,
                           const Vec3& out) {
   for (uint32_t v : edge.vertices) {
@@ -178,7 +179,7 @@ double find_contacts(const MeshQuery& q) {
   return least;
 }
 
-/// Whether some point of one solid, which does not cross the other, is inside it.
+/// Whether some point of one solid is inside the other; their surfaces do not cross.
 bool contained(const PlacedSurface& inner, const PlacedSurface& outer) {
   const Aabb &small = inner.s.tree->bounds(), &large = outer.s.tree->bounds();
   if (!outer.s.closed || (small.extent().squaredNorm() > large.extent().squaredNorm()))
@@ -193,9 +194,9 @@ void drop_penetrations(std::vector<FeatureContact>& contacts) {
   std::erase_if(contacts, [](const FeatureContact& c) { return c.gap < 0; });
 }
 
-/// Finds where the surfaces cross; false where they do not. Coincident faces and edges make
-/// contours that do not close: then, and where features claim an overlap that has no contour,
-/// another look is taken with B a hair's breadth aside.
+/// Finds where the surfaces cross; false if they do not. Coincident faces and edges make contours
+/// that do not close: then, and if features suggest an overlap that has no contour, the search is
+/// repeated with B displaced by a tiny amount.
 bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours,
                  OverlapRegions& regions) {
   const double hair = 1e-7 * std::min(q.A.s.size, q.B.s.size);
@@ -210,9 +211,9 @@ bool overlapping(const MeshQuery& q, bool claimed, OverlapContours& contours,
   return true;
 }
 
-/// The regions have the last word on what penetrates. A feature's contact goes when it is in no
-/// region, when it would lead out against its region's normal, or when it is deeper than the region
-/// is; and the region's own contacts come in where the features do not account for its depth.
+/// Checks contacts that penetrate against the regions of overlap. A feature's contact is dropped if
+/// it is in no region, if its direction opposes its region's normal, or if it is deeper than the
+/// region; the region's own contacts are added if features do not account for its depth.
 class Arbiter {
  public:
   Arbiter(const MeshQuery& q, OverlapRegions& regions, std::vector<FeatureContact>& own)
@@ -226,7 +227,7 @@ class Arbiter {
       region_contacts(q_.A, q_.B, regions_, i, own_);
       if (r.normal.isZero(0)) continue;
       const bool deep = r.depth > shallow(r);
-      // what is ahead of the features that stick out on the far side would hold them there
+      // contacts ahead of features that stick out on the far side would hold them there
       const Aabb around = r.box.inflated(r.depth + 1e-9 * q_.A.s.size);
       double explained = 0;
       std::erase_if(contacts, [&](const FeatureContact& c) {
@@ -250,7 +251,7 @@ class Arbiter {
   }
 
  private:
-  /// Depth up to which the nearest features may be trusted [m].
+  /// Depth up to which contacts of the nearest features are reliable [m].
   double shallow(const OverlapRegion&) const {
     const double thin = std::min(q_.A.s.min_thickness, q_.B.s.min_thickness);
     return std::min(q_.range.reach, 0.2 * thin);

@@ -9,31 +9,31 @@
 
 namespace tumble {
 
-/// What contacts need to know of a triangulated surface, made once per shape.
+/// Data of a triangulated surface for contacts, built once per shape.
 ///
-/// Only features where the surface sticks out can touch first: convex and open edges, and vertices
-/// that are not inside a flat or hollow region. The others are inactive, which is what rids
-/// contacts of ghost hits at the edges inside a tessellated plane.
+/// Only features at which the surface is convex or ends can touch first: convex and open edges, and
+/// vertices that are not inside a flat or concave region. The others are inactive, which avoids
+/// ghost collisions at the inner edges of a tessellated plane.
 struct MeshSurface {
   std::shared_ptr<const TriangleMesh> mesh;
   MeshTopology topology;
   std::unique_ptr<AabbTree> tree;
-  std::unique_ptr<HierarchySet> hierarchies;  ///< of other kinds, built when asked for
+  std::unique_ptr<HierarchySet> hierarchies;  ///< of other kinds, built on request
   std::vector<uint8_t> edge_active;           ///< convex or open
-  std::vector<uint8_t> vertex_active;         ///< touches an active edge
+  std::vector<uint8_t> vertex_active;         ///< has an active edge
   /// Which active corners (bits 0-2) and sides (bits 3-5) each triangle owns: every active vertex
-  /// and edge is owned by one triangle, so that nothing is tested twice.
+  /// and edge has one owner, so that nothing is tested twice.
   std::vector<uint8_t> owned;
-  /// How deep the solid is behind each face along its normal [m]; the size of the mesh where there
-  /// is nothing behind (open meshes).
+  /// Thickness of the solid behind each face along its normal [m]; the size of the mesh if there is
+  /// nothing behind (open meshes).
   std::vector<float> thickness;
   bool closed = false;
   double size = 0;           ///< diagonal of the bounds [m]
-  double min_thickness = 0;  ///< of the faces [m]
+  double min_thickness = 0;  ///< least of the faces [m]
   double max_thickness = 0;
 
   const Vec3& vertex(uint32_t v) const { return mesh->vertices[v]; }
-  /// How deep the solid is behind these faces, measured along `direction` (unit, outward) [m].
+  /// Thickness of the solid behind these faces, measured along `direction` (unit, outward) [m].
   double thickness_along(std::span<const uint32_t> faces, const Vec3& direction) const;
 };
 

@@ -36,7 +36,7 @@ struct OwnCorners {
   }
 };
 
-/// How far t is from a plane on one side of it; negative if it crosses.
+/// Distance of t from a plane, if t is on one side of it; negative if it crosses.
 double beyond_plane(const OwnCorners& plane, const OwnCorners& t) {
   double low = 0, high = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -47,7 +47,8 @@ double beyond_plane(const OwnCorners& plane, const OwnCorners& t) {
   return std::max(low, -high);
 }
 
-/// Both trees at once; B's boxes are oriented boxes in A's frame, tested along the six face axes.
+/// Simultaneous descent of both trees; B's boxes are oriented boxes in A's frame, tested along the
+/// six face axes.
 class Walk {
  public:
   Walk(const PlacedSurface& A, const PlacedSurface& B, NearPairs& pairs)
@@ -84,7 +85,7 @@ class Walk {
   }
 
  private:
-  /// How far the boxes are apart along one of their axes; negative if they overlap.
+  /// Gap between the boxes along the axis where it is greatest; negative if they overlap.
   double between(const HalfBox& p, const HalfBox& q) const {
     const Vec3 d = R_ * q.centre + offset_ - p.centre;
     const double along_a = (d.cwiseAbs() - absolute_ * q.half - p.half).maxCoeff();
@@ -128,11 +129,11 @@ class Walk {
 
 /// Ascending by a, then b.
 void sort_pairs(std::vector<TriangleIds>& pairs) {
-  // As one number: which of two ids decides cannot be foreseen.
+  // As one number: comparing two ids would branch unpredictably.
   std::ranges::sort(pairs, {}, [](const TriangleIds& x) { return uint64_t{x.a} << 32 | x.b; });
 }
 
-/// The same for pairs of a small surface that ascend by b: each goes to the next place of its a.
+/// The same for pairs of a small surface that ascend by b: a counting sort by a.
 void sort_by_facet(std::vector<TriangleIds>& pairs) {
   if (pairs.empty()) return;
   static thread_local std::vector<TriangleIds> sorted;
@@ -149,8 +150,8 @@ void swap_sides(const std::vector<TriangleIds>& pairs, std::vector<TriangleIds>&
   for (const TriangleIds& x : pairs) swapped.push_back({x.b, x.a});
 }
 
-/// A small surface finds pairs in the order of the other's triangles, and of each of them in that
-/// of its own.
+/// Orders the pairs of a small surface, which finds them in the order of the other's triangles and
+/// then of its own.
 void order_small(bool is_a, NearPairs& found, std::vector<TriangleIds>* by_b) {
   if (by_b) swap_sides(found.within, *by_b);
   if (is_a) {

@@ -37,7 +37,7 @@ bool straddles(const Heights& h) {
   return (h[1] > 0) != first || (h[2] > 0) != first;
 }
 
-/// Whether the line from p to q passes the triangle's sides all on the same hand.
+/// Whether the line from p to q passes all sides of the triangle in the same sense.
 bool passes_inside(const Vec3& p, const Vec3& q, const Placed& t) {
   int positive = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -100,7 +100,7 @@ class ContourFinder {
     }
   }
 
-  /// So far every segment has two nodes of its own: those that are the same become one.
+  /// Merges equal nodes: until here every segment has two nodes of its own.
   void number_nodes() {
     thread_local std::vector<uint32_t> order, number, ends;
     auto& nodes = out_.nodes;

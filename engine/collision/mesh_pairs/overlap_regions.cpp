@@ -9,7 +9,8 @@ namespace {
 
 /// Share of the sum of the loops' areas below which a region's vector area counts as cancelled.
 constexpr double cancelled = 0.1;
-/// Contours narrower than this share of the surfaces' sizes have the direction of rounding.
+/// The direction of a contour narrower than this share of the surfaces' sizes is determined by
+/// rounding.
 constexpr double narrow = 1e-13;
 
 /// What a segment adds to the vector area of its loop.
@@ -57,7 +58,7 @@ class RegionFinder {
     return {first, contours_.nodes.end()};
   }
 
-  /// Follows the edges from the contour inwards.
+  /// Marks the vertices inside, along edges from the contour.
   void flood(size_t side) {
     auto& mark = s_.mark[side];
     mark.resize(std::max(mark.size(), surfaces_[side]->s.mesh->vertices.size()), 0);
@@ -83,7 +84,7 @@ class RegionFinder {
     }
   }
 
-  /// The parts of one edge between its crossings [first, last).
+  /// The parts inside of one edge, between its crossings [first, last).
   void edge_pieces(size_t side, uint32_t first, uint32_t last) {
     const auto& nodes = contours_.nodes;
     const MeshEdge& edge = topology(side).edges[nodes[first].edge];
@@ -131,7 +132,7 @@ class RegionFinder {
     }
   }
 
-  /// From nodes to regions, in the order of their first nodes.
+  /// Assigns regions to nodes, in the order of their first nodes.
   void number_regions() {
     const size_t n = contours_.nodes.size();
     s_.number.assign(n, 0);
@@ -160,7 +161,7 @@ class RegionFinder {
 
   void measure() {
     const auto& nodes = contours_.nodes;
-    s_.outside.assign(out_.regions.size(), 0);  // counts from here on
+    s_.outside.assign(out_.regions.size(), 0);  // used for counts from here on
     for (uint32_t i = 0; i < nodes.size(); ++i) {
       const uint32_t r = region_of(i);
       out_.regions[r].box.include(nodes[i].x);

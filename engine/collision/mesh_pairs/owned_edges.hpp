@@ -20,7 +20,7 @@ inline bool owns_edges(const MeshSurface& s, uint32_t triangle) {
 /// The active edges that triangles of one surface own, each placed once.
 class OwnedEdges {
  public:
-  /// Those of all triangles that come first in the pairs, which are sorted by them.
+  /// Places the edges of all triangles that are first in a pair; `pairs` is sorted by these.
   void place(const PlacedSurface& S, const std::vector<TriangleIds>& pairs) {
     edges_.clear();
     if (runs_.size() < S.s.owned.size()) runs_.resize(S.s.owned.size());
@@ -33,7 +33,7 @@ class OwnedEdges {
     }
   }
   bool empty() const { return edges_.empty(); }
-  /// Of a triangle that comes first in a pair.
+  /// For a triangle that is first in a pair.
   std::span<const PlacedEdge> of(uint32_t triangle) const {
     return std::span(edges_).subspan(runs_[triangle].first, runs_[triangle].count);
   }
@@ -43,7 +43,7 @@ class OwnedEdges {
     uint32_t first = 0, count = 0;
   };
   std::vector<PlacedEdge> edges_;
-  std::vector<Run> runs_;  ///< by triangle; of those in no pair, of anything
+  std::vector<Run> runs_;  ///< by triangle; undefined for those in no pair
 };
 
 }  // namespace tumble

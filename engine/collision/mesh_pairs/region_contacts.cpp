@@ -8,24 +8,25 @@
 namespace tumble {
 namespace {
 
-/// More pairs of edges than this are not looked at: so fine a region has vertices everywhere.
+/// Limit of the pairs of edges that are tested: a region with more has enough vertices.
 constexpr size_t max_edge_pairs = 4096;
 
-/// Regions lower than this share of the smaller surface are of faces that cross by rounding alone:
-/// their columns are no deeper than so many of their heights more, for rays miss the face and hit
-/// what is far behind. In others a point may be far behind the contour: a needle in a pane.
+/// In regions lower than this share of the smaller surface, faces cross by rounding alone: their
+/// columns are limited to `most_heights` heights, since rays miss the face and hit whatever is far
+/// behind it. In other regions a point may be far behind the contour, as of a needle through a
+/// plate.
 constexpr double hair_share = 1e-6;
 constexpr double most_heights = 2;
 
 struct Columns {
   const PlacedSurface &A, &B;
   const Vec3& n;
-  double deepest;   ///< of the column in the middle [m]
-  double farthest;  ///< from a vertex to where it would be out [m]
+  double deepest;   ///< of the column in the middle of the contour [m]
+  double farthest;  ///< longest distance from a vertex to its exit [m]
   std::vector<FeatureContact>& contacts;
 };
 
-/// A vertex of V, inside F, leaves along `out` (unit, query frame).
+/// Contact of a vertex of V, inside F, that leaves along `out` (unit, query frame).
 void vertex_column(const Columns& c, bool of_a, uint32_t vertex) {
   const PlacedSurface &V = of_a ? c.A : c.B, &F = of_a ? c.B : c.A;
   const Vec3 out = of_a ? Vec3(-c.n) : c.n;
@@ -37,7 +38,7 @@ void vertex_column(const Columns& c, bool of_a, uint32_t vertex) {
   c.contacts.push_back({x + 0.5 * hit->t * out, c.n, -hit->t, key});
 }
 
-/// Two pieces of edges that pass each other, seen along the normal.
+/// Contact of two pieces of edges that cross, seen along the normal.
 void edge_column(const Columns& c, const InsidePiece& a, const InsidePiece& b) {
   const auto &ea = c.A.s.topology.edges[a.edge].vertices,
              &eb = c.B.s.topology.edges[b.edge].vertices;
@@ -47,7 +48,7 @@ void edge_column(const Columns& c, const InsidePiece& a, const InsidePiece& b) {
   if (!(std::abs(area) > 1e-6 * u.norm() * w.norm())) return;
   const Vec3 r = q - p;
   const double s = c.n.dot(r.cross(w)) / area, t = c.n.dot(r.cross(u)) / area;
-  // Edges that cross upright faces end right above each other.
+  // Edges that cross faces parallel to the normal end exactly above each other.
   constexpr double slack = 1e-7;
   if (s < a.from - slack || s > a.to + slack || t < b.from - slack || t > b.to + slack) return;
   const Vec3 on_a = p + s * u, on_b = q + t * w;

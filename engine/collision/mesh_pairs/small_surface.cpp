@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-/// How far three heights over a plane are from it on one side; negative if they are on both.
+/// Distance from a plane of three points with these heights over it; negative if they are on both
+/// sides.
 double beyond(double x, double y, double z) {
   return std::max(std::min(x, std::min(y, z)), -std::max(x, std::max(y, z)));
 }
@@ -137,7 +138,7 @@ void SmallSurface::meet(uint32_t triangle) {
   Beyond beyond;
   if (pairs_.apart(raise(normal, normal.dot(p[0]), beyond))) return;
   meet_facets(met, beyond);
-  // Once there is a pair nobody asks how far apart the others are.
+  // The distance of the other pairs only matters if there is no pair within reach.
   if (pairs_.within.empty()) note_facets_left_out();
 }
 

@@ -8,28 +8,29 @@
 
 namespace tumble {
 
-/// Vertices and triangles of a small surface: one word has a bit for each of them.
+/// Limit of the vertices and triangles of a small surface: one word has a bit for each.
 inline constexpr size_t most_of_small = 64;
 
-/// Whether a surface is small: hulls, boxes and simple meshes, without vertices of anything else.
+/// Whether a surface is small: hulls, boxes and simple meshes. Its mesh must have no unused
+/// vertices.
 inline bool is_small(const MeshSurface& s) {
   return s.mesh->triangles.size() <= most_of_small && s.mesh->vertices.size() <= most_of_small;
 }
 
-/// How far boxes are apart along one of their axes; negative if they overlap.
+/// Gap between boxes along the axis where it is greatest; negative if they overlap.
 inline double gap_between(const Aabb& a, const Aabb& b) {
   return std::max((a.min - b.max).maxCoeff(), (b.min - a.max).maxCoeff());
 }
 
-/// Takes pairs of triangles with what is known of their distance [m].
+/// Receives pairs of triangles with a lower bound of their distance [m].
 struct NearPairs {
   double reach;
-  double touching;                               ///< what is no farther apart may cross
-  std::vector<TriangleIds>& within;              ///< reach
-  std::vector<TriangleIds>* crossing = nullptr;  ///< of those, the ones that may cross
+  double touching;                               ///< pairs up to this distance may cross [m]
+  std::vector<TriangleIds>& within;              ///< pairs within `reach`
+  std::vector<TriangleIds>* crossing = nullptr;  ///< of these, the pairs that may cross
   double nearest_left_out = std::numeric_limits<double>::infinity();
 
-  /// Whether what is at least this far apart is out of reach; notes the least such distance.
+  /// Whether a pair at least this far apart is out of reach; records the least such distance.
   bool apart(double distance) {
     if (distance <= reach) return false;
     nearest_left_out = std::min(nearest_left_out, distance);
@@ -41,16 +42,17 @@ struct NearPairs {
   }
 };
 
-/// The search of near_triangles for a small surface among the triangles of any other. All of the
-/// small one is turned into the frame of the other once; then one walk down the other's tree is
-/// enough, and a triangle that all of the small surface is beyond is left out at once.
+/// The search of near_triangles for a small surface among the triangles of any other. The small
+/// surface is transformed to the frame of the other once; then one descent of the other's tree
+/// suffices, and a triangle of the other whose plane has the whole small surface beyond reach is
+/// rejected at once.
 class SmallSurface {
  public:
-  /// `is_a`: it is the pairs' A. Uses memory that other objects of the thread use too.
+  /// `is_a`: the small surface is A of the pairs. Uses thread-local memory shared by all objects.
   SmallSurface(const PlacedSurface& small, const PlacedSurface& large, bool is_a, NearPairs& pairs);
 
-  /// Appends pairs until there are more than `most`, in the order of the other's triangles, and of
-  /// each of them in that of the small one's.
+  /// Appends pairs, in the order of the other's triangles and then of the small one's, until there
+  /// are more than `most`.
   void run(size_t most);
 
  private:
@@ -69,31 +71,33 @@ class SmallSurface {
   struct TwoCorners {
     std::array<double, 2> x, y, z;
   };
-  /// The corners that are beyond reach on either side of a triangle's plane, a bit for each.
+  /// The corners beyond reach on either side of a triangle's plane, a bit for each.
   struct Beyond {
     uint64_t above = 0, below = 0;
   };
 
   void meet(uint32_t triangle);
-  /// Sets the heights over a plane; how far all corners are from it on one side.
+  /// Computes the heights of all corners over a plane; returns by how much all are on one side of
+  /// it.
   double raise(const Vec3& normal, double offset, Beyond& beyond);
-  /// Appends the pairs of the triangle that the heights are of.
+  /// Appends the pairs of the triangle for which the heights were computed.
   void meet_facets(const Met& triangle, const Beyond& beyond);
-  /// Notes how far the facets are that are wholly beyond reach of the plane.
+  /// Records the distance of the facets that are beyond reach of the plane.
   void note_facets_left_out();
   double over_plane(uint32_t facet) const;
   const Facet& facet(uint32_t i);
-  /// How far a facet is beyond the triangle's box, or the triangle beyond the facet's plane [m].
+  /// Distance of a facet from the triangle's box, or of the triangle from the facet's plane, if
+  /// greater [m].
   double distance(uint32_t facet, const Met& triangle);
 
   const PlacedSurface &small_, &large_;
   Mat3 R_;                           ///< from the small surface's frame to the large one's
   std::vector<Vec3>& corners_;       ///< of the small surface, large one's frame
-  std::vector<TwoCorners>& by_two_;  ///< the last one twice where their number is odd
-  std::vector<double>& heights_;     ///< of the corners over the triangle at hand [m]
-  std::vector<uint64_t>& masks_;     ///< of each facet the bits of its corners
-  std::vector<Facet>& facets_;       ///< those that were asked for
-  uint64_t asked_ = 0;               ///< a bit for each of them
+  std::vector<TwoCorners>& by_two_;  ///< in pairs, the last one twice if their number is odd
+  std::vector<double>& heights_;     ///< of the corners over the plane of the current triangle [m]
+  std::vector<uint64_t>& masks_;     ///< for each facet the bits of its corners
+  std::vector<Facet>& facets_;       ///< computed on first use
+  uint64_t asked_ = 0;               ///< a bit for each facet that has been computed
   Aabb box_;
   bool is_a_;
   NearPairs& pairs_;

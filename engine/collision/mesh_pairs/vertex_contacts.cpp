@@ -12,8 +12,8 @@ namespace {
 /// Sine of the angle by which edges around a vertex may reach past it towards the other surface.
 constexpr double cone_in_front = 0.3;
 
-/// Whether no edge of the vertex goes further than the tolerance along -n: n (unit, query frame)
-/// points out of the surface that the vertex touches.
+/// Whether no edge of the vertex extends further than the tolerance along -n, where n (unit, query
+/// frame) points out of the surface that the vertex touches.
 bool sticks_out(const PlacedSurface& V, uint32_t vertex, const Vec3& n, double sine) {
   const Vec3 n_local = V.local_direction(n);
   const Vec3& p = V.s.vertex(vertex);
@@ -36,7 +36,7 @@ const Vec3& feature_normal(const MeshSurface& s, uint32_t triangle, TriangleFeat
   return s.topology.face_normals[triangle];
 }
 
-/// Nearest point of one triangle, taken over when it is nearer.
+/// Updates the nearest point by that of one triangle.
 void consider(NearestFeature& nearest, TriangleFeature& feature, uint32_t t,
               const TrianglePoint& c) {
   const double distance = std::sqrt(c.squared_distance);
@@ -62,7 +62,8 @@ void decide_side(NearestFeature& nearest, TriangleFeature feature, const MeshSur
   }
 }
 
-/// How far a point is from the box of a triangle along one of the axes; negative in it.
+/// Distance of a point from the box of a triangle along the axis where it is greatest; negative
+/// inside.
 double beyond_box(const MeshSurface& s, uint32_t t, const Vec3& p) {
   const Vec3 &a = s.mesh->corner(t, 0), &b = s.mesh->corner(t, 1), &c = s.mesh->corner(t, 2);
   return std::max((a.cwiseMin(b).cwiseMin(c) - p).maxCoeff(),
@@ -73,7 +74,8 @@ TrianglePoint closest(const MeshSurface& s, uint32_t t, const Vec3& p) {
   return closest_on_triangle(p, s.mesh->corner(t, 0), s.mesh->corner(t, 1), s.mesh->corner(t, 2));
 }
 
-/// A vertex outside F whose nearest point is on a ridge or corner, not on a face under it.
+/// Contact of a vertex outside F whose nearest point is on a ridge or corner, not in the interior
+/// of a face.
 void beside_contact(const PlacedSurface& V, uint32_t vertex, const PlacedSurface& F,
                     const NearestFeature& nearest, double margin, const Vec3& world,
                     std::vector<FeatureContact>& contacts) {
@@ -86,11 +88,11 @@ void beside_contact(const PlacedSurface& V, uint32_t vertex, const PlacedSurface
                       feature_key(FeaturePair::vertex_face, vertex, 0)});
 }
 
-/// A vertex against the faces around it: in front contacts go to the list, and the nearest feature
-/// and the nearest face that it is behind of are remembered.
+/// Result of testing a vertex against the faces around it: the nearest feature, and the nearest
+/// face that it is behind; contacts in front are added directly.
 struct Around {
   NearestFeature nearest;
-  double behind = 0;  ///< depth below the nearest face that looks against the vertex [m]
+  double behind = 0;  ///< depth below the nearest face whose normal opposes the vertex [m]
   uint32_t behind_face = no_index;
 };
 

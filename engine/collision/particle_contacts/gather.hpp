@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-/// Calls find(i, out) for every i of [0, n), on these threads if there are any, and puts what each
-/// appends to its `out` together in the order of i. `Local` is made once per thread's piece and
-/// handed to find(i, local, out).
+/// Calls find(i, local, out) for every i of [0, n), on these threads if there are any, and
+/// concatenates what the calls append to `out` in the order of i. A `Local` is created for each
+/// chunk of indices.
 template <class Local, class T, class Find>
 void gather_found(Crew* crew, size_t n, std::vector<T>& out, const Find& find) {
   std::array<std::vector<T>, chunk_count> parts;

@@ -11,13 +11,13 @@ namespace {
 
 struct NoMemory {};
 
-/// Bounds of a ball on its way from x to y, with room for rounding.
+/// Bounds of a ball that moves from x to y, enlarged for rounding.
 Aabb swept_ball(const Vec3& x, const Vec3& y, double radius) {
   Aabb b{x.cwiseMin(y), x.cwiseMax(y)};
   return b.inflated(radius + 1e-15 * (b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs())).maxCoeff());
 }
 
-/// The contact of two balls at some moment.
+/// The contact of two balls at one time.
 ParticlePairContact ball_contact(const Vec3& xa, double ra, const Vec3& xb, double rb) {
   ParticlePairContact c;
   const Vec3 way = xb - xa;
@@ -28,8 +28,8 @@ ParticlePairContact ball_contact(const Vec3& xa, double ra, const Vec3& xb, doub
   return c;
 }
 
-/// Whether two moving balls are apart all the time by more than rounding can hide: most that their
-/// swept bounds let through.
+/// Whether two moving balls are certainly apart all the time, rounding included: a quick test that
+/// rejects most pairs whose swept bounds overlap.
 bool surely_apart(const MovingSphere& a, const MovingSphere& b) {
   const Vec3 x = b.centre.start - a.centre.start, end = b.centre.end - a.centre.end;
   const Vec3 way = end - x;

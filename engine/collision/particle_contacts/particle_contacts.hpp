@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-// Particles are balls. Flat arrays of equal length: index i of each is the same particle.
+// Particles are balls, given by arrays of equal length: the same index is the same particle.
 
 /// Where particles are.
 struct ParticleBalls {
@@ -26,20 +26,20 @@ struct ParticlePaths {
   double h = 0;             ///< >= 0 [s]
 };
 
-/// Two particles that touch or overlap, or nearly so.
+/// Two particles whose gap is at most the margin; they may overlap.
 struct ParticlePairContact {
   uint32_t a = 0, b = 0;        ///< a < b
   double gap = 0;               ///< negative where they overlap [m]
   Vec3 x = Vec3::Zero();        ///< midway between the surfaces [m]
-  Vec3 normal = Vec3::UnitY();  ///< unit, from a to b; +Y for centres in one place
+  Vec3 normal = Vec3::UnitY();  ///< unit, from a to b; +Y for coinciding centres
 };
 
 /// Two particles that first touch within the tick.
 struct ParticlePairMeeting {
   uint32_t a = 0, b = 0;        ///< a < b
-  double time = 0;              ///< 0 where they touch from the start; never late [s]
-  Vec3 x = Vec3::Zero();        ///< midway between the surfaces then [m]
-  Vec3 normal = Vec3::UnitY();  ///< unit, from a to b, then
+  double time = 0;              ///< 0 if they touch at the start; never later than the contact [s]
+  Vec3 x = Vec3::Zero();        ///< midway between the surfaces at that time [m]
+  Vec3 normal = Vec3::UnitY();  ///< unit, from a to b, at that time
 };
 
 struct StillShape {
@@ -53,8 +53,8 @@ struct MovingShape {
   Motion motion;
 };
 
-/// A particle that touches, overlaps or is within a shape, or nearly so. Convex shapes, half-spaces
-/// and closed meshes are solid; of an open mesh the surface counts, from either side.
+/// A particle whose gap to a shape is at most the margin; it may be inside. Convex shapes,
+/// half-spaces and closed meshes are solid; an open mesh is a surface with two sides.
 struct ParticleShapeContact {
   uint32_t particle = 0, shape = 0;
   double gap = 0;               ///< negative where they overlap [m]
@@ -66,41 +66,40 @@ struct ParticleShapeContact {
 /// A particle that first comes within the tolerance of a shape's surface in the tick.
 struct ParticleShapeMeeting {
   uint32_t particle = 0, shape = 0;
-  double time = 0;              ///< never late [s]
-  Vec3 x = Vec3::Zero();        ///< on the shape's surface then [m]
+  double time = 0;              ///< never later than the contact [s]
+  Vec3 x = Vec3::Zero();        ///< on the shape's surface, at that time [m]
   Vec3 normal = Vec3::UnitY();  ///< unit, from the particle to the shape
   uint32_t triangle = 0;        ///< of a mesh
-  /// initially_overlapping at time 0: from the start, and nothing else of the shape is met;
-  /// max_iterations: none before, beyond unknown.
+  /// initially_overlapping: at time 0, and nothing else of the shape is met. max_iterations: no
+  /// contact before this time, unknown beyond.
   TimeOfContactStatus status = TimeOfContactStatus::contact;
 };
 
-/// Finds contacts of particles with each other and with shapes, now (discrete) and within a tick
-/// (continuous); Coutinho 2013 §3.4.1 and §3.4.2. Answers replace what `out` held, are sorted by
-/// the two indices, and are the same for any number of threads and whatever was asked before: what
-/// is kept is memory only. Arrays of unequal length, values that are not finite, and negative radii
-/// are refused with the index.
+/// Finds contacts of particles with each other and with shapes, at one time (discrete) and within a
+/// tick (continuous); Coutinho 2013 §3.4.1 and §3.4.2. Results overwrite `out`, are sorted by the
+/// two indices, and depend neither on the number of threads nor on earlier calls: only memory is
+/// kept. Arrays of unequal length, values that are not finite, and negative radii are refused with
+/// an error that names the index.
 class ParticleContactFinder {
  public:
   ParticleContactFinder();
-  /// Threads to use, or none; until the next call of this they must live.
+  /// Threads to use, or null; they must live until the next call of this function.
   void use_threads(Crew* crew);
 
-  /// Pairs with a gap of at most `margin` (>= 0) [m]. Neighbours come from the grid of several
-  /// levels (§2.4.2), so that radii may differ widely.
+  /// Pairs with a gap of at most `margin` (>= 0) [m]. Neighbours are found by the multi-level grid
+  /// (§2.4.2), so that radii may differ widely.
   Status touching_pairs(const ParticleBalls& balls, double margin,
                         std::vector<ParticlePairContact>& out);
-  /// Pairs that touch at any time of the tick, each when it first does: the certified quadratic of
-  /// moving_spheres_contact().
+  /// Pairs that touch at any time of the tick, with the first time: the certified quadratic
+  /// equation of moving_spheres_contact().
   Status meeting_pairs(const ParticlePaths& paths, std::vector<ParticlePairMeeting>& out);
 
   /// Particles with a gap of at most `margin` (>= 0) [m] to a shape.
   Status touching_shapes(const ParticleBalls& balls, std::span<const StillShape> shapes,
                          double margin, std::vector<ParticleShapeContact>& out);
-  /// Particles that meet a shape at any time of the tick, both moving, rotation included:
-  /// time_of_contact() of balls, so that nothing is passed through, however thin. Radii count as
-  /// 10^-6 m at least, the smallest that shapes have, and above 10^6 m are refused. `tolerance` > 0
-  /// [m].
+  /// Particles that touch a moving shape at any time of the tick, by time_of_contact() of balls,
+  /// rotation included: nothing is passed through, however thin. Radii below 10^-6 m, the smallest
+  /// size of a shape, count as that; radii above 10^6 m are refused. `tolerance` > 0 [m].
   Status meeting_shapes(const ParticlePaths& paths, std::span<const MovingShape> shapes,
                         double tolerance, std::vector<ParticleShapeMeeting>& out);
 

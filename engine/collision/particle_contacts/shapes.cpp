@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// A ball as a shape, kept for the next particle of the same radius.
+/// A ball as a shape, reused for the next particle of the same radius.
 class BallShape {
  public:
   const Shape& of(double radius) {
@@ -25,8 +25,8 @@ class BallShape {
   std::shared_ptr<const Shape> shape_;
 };
 
-/// What a shape covers during its motion: a point leaves the chord of its path by at most
-/// lever angle^2 / 8, as long as it turns by less than half a turn.
+/// Bounds of a shape over its motion: a point deviates from the chord of its path by at most lever
+/// angle^2 / 8, for rotations of less than half a turn.
 Aabb swept_bounds(const MovingShape& s) {
   const Motion& m = s.motion;
   Aabb all = s.shape->bounds(m.pose(m.t0));

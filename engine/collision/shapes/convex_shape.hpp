@@ -9,12 +9,13 @@
 
 namespace tumble {
 
-/// A corner, side or face of a convex core that lies furthest along some direction: one point, a
+/// The vertex, side or face of a convex core that is extreme along some direction: one point, a
 /// segment of two, or a planar convex polygon, counter-clockwise seen from outside.
 struct SupportingFace {
   static constexpr int capacity = 64;
   std::array<Vec3, capacity> points;
-  std::array<uint32_t, capacity> ids;  ///< which vertex of the shape; stable from call to call
+  /// Index of the vertex of the shape; stable from call to call.
+  std::array<uint32_t, capacity> ids;
   int count = 0;
 
   void add(const Vec3& p, uint32_t id) {
@@ -23,9 +24,9 @@ struct SupportingFace {
   }
 };
 
-/// A convex set given by its support function, with a radius by which it is rounded: the solid is
-/// all points within `rounding()` of the core. Spheres are points and capsules are segments, so
-/// that closest points of cores decide shallow contacts exactly.
+/// A convex set given by its support function, with a radius of rounding: the solid is all points
+/// within `rounding()` of the core. The core of a ball is a point and that of a capsule a segment,
+/// so that the closest points of cores give shallow contacts exactly.
 class ConvexCore {
  public:
   virtual ~ConvexCore() = default;
@@ -33,18 +34,18 @@ class ConvexCore {
   double rounding() const { return rounding_; }
   /// A point of the core furthest along `direction` (any length; zero gives any point).
   virtual Vec3 support(const Vec3& direction) const = 0;
-  /// The feature of the core to clip contacts against when `direction` (unit) points out of it:
-  /// the face most nearly across it, or a side or corner where the core has no face.
+  /// The feature of the core to clip contacts against if `direction` (unit) points out of it: the
+  /// face most nearly perpendicular to it, or a side or vertex if the core has no face.
   virtual void supporting_face(const Vec3& direction, SupportingFace& face) const = 0;
   /// Some point inside the core.
   Vec3 centre() const { return view_.centre; }
-  /// The core as plain data.
+  /// The core's data for use without virtual calls.
   const CoreView& view() const { return view_; }
 
  protected:
   ConvexCore() = default;
   explicit ConvexCore(const CoreView& view) : view_(view) {}
-  // a view may point into its core
+  // a view may refer to its core
   ConvexCore(const ConvexCore&) = delete;
   ConvexCore& operator=(const ConvexCore&) = delete;
 
@@ -58,16 +59,17 @@ struct VoronoiPolyhedron;
 class ConvexShape : public Shape, public ConvexCore {
  public:
   const ConvexShape* convex() const final { return this; }
-  /// From the supports along the axes.
+  /// Computed from the supports along the axes.
   Aabb bounds(const Pose& pose) const override;
-  /// The point of the surface nearest to `p`, own frame, of types that have a closed form; others
-  /// (hulls) leave it to GJK.
+  /// The point of the surface nearest to `p`, own frame, for types with a closed form; for others
+  /// (hulls) GJK is used.
   virtual std::optional<SurfacePoint> nearest(const Vec3& p) const;
   double rounding_along(const Vec3& /*outward*/) const override { return rounding(); }
-  /// What is round about the point below the surface; a material point where nothing is.
+  /// The ball of radius rounding() about the core point below the surface; a material point if
+  /// there is no rounding.
   SurfaceElement border_at(const Vec3& point, const Vec3& outward) const override;
-  /// Corners all of which may touch a plane, where faces next to the lowest one lie almost as flat:
-  /// of hulls. Others are met by their supporting face.
+  /// All corners, for shapes of which several faces next to the lowest one may touch a plane:
+  /// hulls. For others the supporting face suffices.
   virtual std::span<const Vec3> corners() const { return {}; }
   /// Boxes and hulls: their Voronoi planes, for V-Clip. Null for curved shapes.
   virtual const VoronoiPolyhedron* voronoi() const { return nullptr; }

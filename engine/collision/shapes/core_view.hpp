@@ -3,13 +3,13 @@
 
 namespace tumble {
 
-/// What a convex core is made of, as plain data, so that an iteration that asks for many supports
-/// need not go through a virtual call for each.
+/// A convex core as plain data, so that iterations with many support queries need no virtual call
+/// for each.
 struct CoreView {
   enum class Kind : uint8_t {
-    general,   ///< only ConvexCore::support() knows
+    general,   ///< only ConvexCore::support() applies
     box,       ///< corners at +-half; a segment or point where half is zero
-    vertices,  ///< the hull of a few vertices, or of many with their edges
+    vertices,  ///< the convex hull of vertices
   };
   Kind kind = Kind::general;
   double reach = 0;            ///< no point of the core is further from its frame's origin [m]

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// Solid cylinder along y about the origin. Its caps are exact discs for distances; contacts on a
-/// cap take points of its rim.
+/// Solid cylinder along y about the origin. Its caps are exact discs in distance queries; contacts
+/// on a cap are at points of its rim.
 class CylinderShape final : public ConvexShape {
  public:
   static constexpr uint32_t rim_points = 8;  ///< of each cap, for contacts
@@ -18,8 +18,8 @@ class CylinderShape final : public ConvexShape {
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                  double t_max) const override;
   Vec3 support(const Vec3& d) const override;
-  /// A cap as a polygon of fixed rim points, plus the furthest rim point when the cap is tilted;
-  /// or the line on the side.
+  /// A cap as a polygon of fixed rim points, plus the extreme rim point if the cap is tilted; or
+  /// the line on the side.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   std::optional<SurfacePoint> nearest(const Vec3& p) const override {
     return nearest_on_cylinder(half_height_, radius(), p);

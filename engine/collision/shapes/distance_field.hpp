@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// A closed mesh that touches others by its signed distance field, to the field's error; all else
-/// (mass, rays, nearest points, times of contact) is that of the mesh itself.
+/// A closed mesh that touches others by its signed distance field, with the field's error;
+/// everything else (mass, rays, nearest points, times of contact) is that of the mesh itself.
 class DistanceFieldShape final : public TriangleMeshShape {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);

@@ -3,13 +3,12 @@
 
 namespace tumble {
 
-/// Radius of the sphere that is as much curved where the normal of an ellipsoid is `n` (unit, in
-/// its frame): the geometric mean of the two principal radii, a b c / |D n|^2 [m].
+/// Radius of the sphere with the same Gaussian curvature as an ellipsoid where its normal is `n`
+/// (unit, in its frame): the geometric mean of the two principal radii, a b c / |D n|^2 [m].
 double mean_radius_of_curvature(const Vec3& semi_axes, const Vec3& n);
 
-/// Solid ellipsoid about the origin, its semi-axes along x, y, z. Smooth all over: it touches in
-/// one point, and its support function sqrt(n^T D^2 n), with D the diagonal of the semi-axes, is
-/// exact.
+/// Solid ellipsoid about the origin, its semi-axes along x, y, z. Smooth: it touches in one point,
+/// and its support function sqrt(n^T D^2 n), with D the diagonal matrix of the semi-axes, is exact.
 class EllipsoidShape final : public ConvexShape {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
@@ -21,7 +20,7 @@ class EllipsoidShape final : public ConvexShape {
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
                                  double t_max) const override;
   Vec3 support(const Vec3& d) const override;
-  /// The one point.
+  /// The support point.
   void supporting_face(const Vec3& direction, SupportingFace& face) const override;
   std::optional<SurfacePoint> nearest(const Vec3& p) const override;
   SurfaceElement element_at(const Vec3& point, const Vec3& outward) const override;

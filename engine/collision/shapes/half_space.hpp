@@ -8,7 +8,7 @@ class HalfSpaceShape final : public Shape {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
 
-  /// Infinite, but tight on one side when the normal is along a world axis.
+  /// Infinite, except on one side if the normal is along a world axis.
   Aabb bounds(const Pose& pose) const override;
   double bounding_radius() const override;
   double inner_radius() const override;

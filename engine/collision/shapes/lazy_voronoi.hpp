@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The Voronoi planes of a shape, worked out when they are first asked for and then shared.
+/// The Voronoi planes of a shape, computed on first use and then shared.
 class LazyVoronoi {
  public:
   /// Null when the polyhedron has none: see make_voronoi_polyhedron.

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Where the surface is a given way along `out`, from a point of a core at `from`.
+/// The point of the surface at distance `radius` from a core point `from`, in the direction of p.
 SurfacePoint about(const Vec3& from, double radius, const Vec3& p) {
   const Vec3 out = p - from;
   const double length = out.norm();
@@ -20,14 +20,14 @@ SurfacePoint about(const Vec3& from, double radius, const Vec3& p) {
   return r;
 }
 
-/// One axis of an ellipsoid, in the half where its coordinate is not negative.
+/// One axis of an ellipsoid, in the half in which the coordinate is not negative.
 struct HalfAxis {
   double a, p;  ///< semi-axis, coordinate of the point [m]
   int index;
 };
 
-/// t + a^2 of the shortest axis `c`, where the sum over `axes` is 1; none is negative. `start`:
-/// not beyond the root.
+/// t + a^2 for the shortest axis `c` at the root where the sum over `axes` is 1; not negative.
+/// `start` must not be beyond the root.
 template <size_t N>
 double ellipsoid_root(const std::array<HalfAxis, N>& axes, double c, double start) {
   constexpr int most = 100;
@@ -47,13 +47,13 @@ double ellipsoid_root(const std::array<HalfAxis, N>& axes, double c, double star
   return s;
 }
 
-/// The nearest point in the octant of the point, axes in falling order.
+/// The nearest point, in the octant of the point; axes in descending order.
 Vec3 nearest_in_octant(const std::array<HalfAxis, 3>& e) {
   const double c = e[2].a;
   const auto along = [&](const HalfAxis& h, double s) {
     return h.p > 0 ? h.a * (h.a * h.p / (s + (h.a - c) * (h.a + c))) : 0;
   };
-  // Each term alone says where the root is not below.
+  // Each term alone gives a lower bound of the root.
   double start = 0;
   for (const HalfAxis& h : e)
     if (h.p > 0) start = std::max(start, h.a * h.p - (h.a - c) * (h.a + c));
@@ -61,7 +61,8 @@ Vec3 nearest_in_octant(const std::array<HalfAxis, 3>& e) {
     const double s = ellipsoid_root(e, c, start);
     return {along(e[0], s), along(e[1], s), along(e[2], s)};
   }
-  // In the plane across the shortest axis and not far out: there t = -c^2, or the root of the rest.
+  // A point in the plane perpendicular to the shortest axis, and not far out: there t = -c^2, or
+  // the root of the other terms.
   const std::array<HalfAxis, 2> rest{e[0], e[1]};
   double left = 1;
   for (const HalfAxis& h : rest) {
@@ -117,7 +118,7 @@ SurfacePoint nearest_on_cylinder(double half_height, double radius, const Vec3& 
 }
 
 SurfacePoint nearest_on_ellipsoid(const Vec3& semi_axes, const Vec3& p) {
-  // In units of the longest axis, and without coordinates whose squares would vanish.
+  // In units of the longest axis, with coordinates whose squares would underflow set to zero.
   const double unit = semi_axes.maxCoeff();
   constexpr double vanishing = 1e-140;
   std::array<HalfAxis, 3> e;

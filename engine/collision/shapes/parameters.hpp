@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// A length that a shape must be given, > 0 and at most a million metres.
+/// A required length of a shape, > 0 and at most a million metres.
 constexpr Parameter length_parameter(std::string_view name, std::string_view doc) {
   return {.name = name,
           .unit = "m",

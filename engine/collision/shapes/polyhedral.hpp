@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// A shape that is bounded by triangles: meshes, and boxes and hulls when they meet a mesh. The
+/// A shape that is bounded by triangles: meshes, and boxes and hulls in contact with a mesh. The
 /// surface is built on first use and then shared.
 class Polyhedral {
  public:

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// A shape with flat faces, of the family of `Base`: ConvexShape, or Shape for meshes. What its
-/// surface is near a point is answered here for all of them, by the faces of a convex shape or by
-/// the triangles of a mesh.
+/// A shape with flat faces, of the family of `Base`: ConvexShape, or Shape for meshes. Implements
+/// the queries for surface elements and features, by the faces of a convex shape or by the
+/// triangles of a mesh.
 template <class Base>
 class PolyhedralShape : public Base, public Polyhedral {
  public:

@@ -5,23 +5,23 @@
 
 namespace tumble {
 
-// What solids that are round about y have in common.
+// Common parts of solids of revolution about y.
 
 /// The side of a truncated cone about y: its radius runs from `r0` at `y0` to `r1` at `y1` > `y0`.
 struct ConeSide {
   double y0, r0, y1, r1;
 };
-/// Where a ray first goes in through the side, if it does; own frame.
+/// Where a ray first enters through the side, if it does; own frame.
 std::optional<RayHit> ray_cone_side(const ConeSide& side, const Ray& ray, double t_max);
-/// What a ray that starts inside any solid hits.
+/// The hit of a ray that starts inside a solid.
 RayHit hit_from_inside(const Ray& ray);
 
-/// A ring of points of a surface of revolution, and how its normal leans.
+/// A ring of points of a surface of revolution, with the components of its normal.
 struct ProfilePoint {
   double y, radius;             ///< [m]
   double normal_y, normal_out;  ///< unit
 };
-/// The surface from the bottom to the top; two points in one place make a sharp edge.
+/// The surface from the bottom to the top; two equal points in sequence make a sharp edge.
 DrawnSurface turned_surface(std::span<const ProfilePoint> profile, uint32_t around);
 
 }  // namespace tumble

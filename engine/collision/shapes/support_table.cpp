@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Fills the cells by halving each side of the cube again and again: what is left out of a region
-/// need not be looked at in its parts.
+/// Fills the cells by recursive bisection of each side of the cube: a vertex discarded for a region
+/// need not be considered in its parts.
 class SupportTable::Builder {
  public:
   explicit Builder(SupportTable& table) : table_(table) {
@@ -42,7 +42,7 @@ class SupportTable::Builder {
     fill(part, left);
   }
 
-  /// Along the middle and the corners of a region.
+  /// The directions through the middle and the corners of a region.
   std::array<Plain3, 5> directions(const Region& r) const {
     std::array<Plain3, 5> out;
     const double n = table_.cells_per_side_;
@@ -59,7 +59,7 @@ class SupportTable::Builder {
     return out;
   }
 
-  /// The candidates that are not below one of the tops along all corners.
+  /// The candidates that no top vertex exceeds along all corners.
   std::vector<uint32_t> not_below(const Region& region, std::span<const uint32_t> candidates) {
     const std::array<Plain3, 5> along = directions(region);
     std::array<Plain3, 5> tops;

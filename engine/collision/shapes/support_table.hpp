@@ -13,14 +13,15 @@
 
 namespace tumble {
 
-/// The furthest of many vertices along a direction, at a cost that hardly grows with their number.
-/// Directions are sorted into the cells of a grid on the sides of a cube. Each cell lists all
-/// vertices that are furthest along any of its directions, a few, of which the heights are
-/// compared: no walk, no jump that depends on the direction.
+/// Support vertex of a large set in a direction, at a cost that hardly grows with the number of
+/// vertices. The directions are divided into the cells of a grid on the sides of a cube. Each cell
+/// lists all vertices that are extreme for some of its directions; these few heights are compared.
+/// There is no walk, and no branch that depends on the direction.
 ///
-/// A vertex is left out where another one is higher along the four corners of a cell: directions
-/// between are sums of the corners with weights that are not negative, so that it is lower along
-/// all of them. It must be higher by more than rounding can do, hence no list lacks the furthest.
+/// A vertex is not listed in a cell if another one is higher along the directions of the cell's
+/// four corners: any direction between them is a sum of these with nonnegative weights, so that it
+/// is lower for all of them. It must be lower by more than rounding errors, so that no list lacks
+/// the extreme vertex.
 class SupportTable {
  public:
   explicit SupportTable(std::span<const Vec3> vertices);
@@ -30,8 +31,8 @@ class SupportTable {
 
  private:
   static constexpr uint32_t most_listed = 4;
-  /// Vertices in ascending order, the last repeated up to the end; or, where there are more, `many`
-  /// and the place and length of a list elsewhere.
+  /// Vertices in ascending order, the last repeated to fill the cell; or, if there are more, `many`
+  /// and the start and length of a list in long_lists_.
   using Cell = std::array<uint32_t, most_listed>;
   static constexpr uint32_t many = std::numeric_limits<uint32_t>::max();
   class Builder;
@@ -41,7 +42,7 @@ class SupportTable {
 
   std::vector<Plain3> vertices_;
   uint32_t cells_per_side_;
-  double half_, almost_half_;  ///< of the cells of a side
+  double half_, almost_half_;  ///< half the number of cells along a side
   std::vector<Cell> cells_;
   std::vector<uint32_t> long_lists_;
 };
@@ -54,7 +55,7 @@ inline uint32_t SupportTable::cell(const Plain3& d) const {
   const double scale = almost_half_ / std::abs(p[axis]);
   const auto place = [&](double x) {
     const auto at = uint32_t(_mm_cvttsd_si32(_mm_set_sd(x * scale + half_)));
-    return std::min(at, cells_per_side_ - 1);  // of no use but for NaN
+    return std::min(at, cells_per_side_ - 1);  // only matters for NaN
   };
   const auto side = uint32_t(2 * axis + (p[axis] < 0));
   return (side * cells_per_side_ + place(p[axis + 1])) * cells_per_side_ + place(p[axis + 2]);

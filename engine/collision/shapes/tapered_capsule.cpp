@@ -17,8 +17,8 @@ namespace tumble {
 namespace {
 
 /// The convex hull of two balls on y, one of `radius` at -height / 2 and one of `top_radius` at
-/// +height / 2: what a ball sweeps whose radius changes evenly on its way. The core is the same
-/// solid with both radii less by the smaller one, which is the rounding.
+/// +height / 2: the volume swept by a ball whose radius changes linearly. The core is the same
+/// solid with both radii reduced by the smaller one, which is the rounding.
 class TaperedCapsuleShape final : public ConvexShape {
  public:
   static Result<std::shared_ptr<const Shape>> make(const ShapeDef& def);
@@ -56,20 +56,20 @@ class TaperedCapsuleShape final : public ConvexShape {
     view_ = CoreView::of_reach(half_ + std::max(r_[0], r_[1]) - rounding_);
   }
   double end(int i) const { return i == 0 ? -half_ : half_; }
-  /// Of the ball that is swept, where its centre is at y.
+  /// Radius of the swept ball with its centre at y.
   double radius_at(double y) const { return 0.5 * (r_[0] + r_[1]) + taper_ * y; }
-  /// Where the centre of the ball is whose surface has the point p with the normal n.
+  /// The y of the centre of the swept ball whose surface has point p with normal n.
   double centre_at(const Vec3& p, const Vec3& n) const {
     return (p.y() - radius_at(0) * n.y()) / (1 + taper_ * n.y());
   }
-  /// Where a ball goes over into the side: the side's normal leans by -taper along y.
+  /// The y at which a ball meets the side, whose normal has the component -taper along y.
   double seam_y(int i) const { return end(i) - r_[size_t(i)] * taper_; }
   double seam_radius(int i) const { return r_[size_t(i)] * out_; }
 
   std::array<double, 2> r_;  ///< below, above
   double half_;
-  double taper_;  ///< of the radius, per length along y
-  double out_;    ///< component of the side's normal across the axis
+  double taper_;  ///< change of the radius per length along y
+  double out_;    ///< component of the side's normal perpendicular to the axis
 };
 
 Result<std::shared_ptr<const Shape>> TaperedCapsuleShape::make(const ShapeDef& def) {
@@ -87,8 +87,9 @@ Result<std::shared_ptr<const Shape>> TaperedCapsuleShape::make(const ShapeDef& d
   return std::shared_ptr<const Shape>(new TaperedCapsuleShape(def));
 }
 
-/// A solid of revolution in three pieces, the square of whose radius is a polynomial q(y) of second
-/// degree: the integrals of q, y q, y^2 q and q^2 by Gauss' rule of three points are exact.
+/// A solid of revolution of three pieces in each of which the squared radius is a quadratic
+/// polynomial q(y): the integrals of q, y q, y^2 q and q^2 are exact by three-point Gauss
+/// quadrature.
 Result<MassProperties> TaperedCapsuleShape::mass_properties() const {
   struct Piece {
     double from, to;
@@ -153,9 +154,9 @@ void TaperedCapsuleShape::supporting_face(const Vec3& direction, SupportingFace&
     face.add(Vec3(0, end(i), 0) + (r_[size_t(i)] - rounding()) * direction, uint32_t(i));
 }
 
-/// The ball whose surface is nearest touches where the way to its centre leans as the side does,
-/// unless that one is beyond an end. It holds inside as well: there the greatest ball about the
-/// point touches the surface where its centre line does.
+/// The nearest ball of the sweep has its centre where the direction to the point is normal to the
+/// side, clamped to the ends. The same holds inside: there the greatest ball about the point
+/// touches the surface where this ball does.
 std::optional<SurfacePoint> TaperedCapsuleShape::nearest(const Vec3& p) const {
   const double x = std::sqrt(p.x() * p.x() + p.z() * p.z());
   const double y = std::clamp(p.y() + taper_ * x / out_, -half_, half_);

@@ -12,8 +12,8 @@ class TriangleMeshShape : public PolyhedralShape<Shape> {
 
   Aabb bounds(const Pose& pose) const override;
   double bounding_radius() const override { return bounding_radius_; }
-  /// A quarter of the least thickness of the solid, because contacts between meshes tell the way
-  /// out only that deep; zero for open meshes.
+  /// A quarter of the least thickness of the solid, since contacts between meshes find the
+  /// direction of separation only up to that depth; zero for open meshes.
   double inner_radius() const override;
   Result<MassProperties> mass_properties() const override;
   std::optional<RayHit> ray_cast(const Vec3& origin, const Vec3& direction,
@@ -25,7 +25,7 @@ class TriangleMeshShape : public PolyhedralShape<Shape> {
 
  protected:
   explicit TriangleMeshShape(const ShapeDef& def);
-  /// Whether the definition has a mesh that is fit for a shape.
+  /// Whether the definition has a valid mesh for a shape.
   static Status check(const ShapeDef& def);
   MeshSurface make_surface() const override;
 

@@ -5,17 +5,17 @@
 
 namespace tumble {
 
-/// Vertices coordinate by coordinate, for scans by SIMD. `padded` is 4, 8, or
-/// a multiple of 16; the last vertex is repeated up to it.
+/// Arrays of vertex coordinates for SIMD. `padded` is 4, 8, or a multiple of 16; the last vertex is
+/// repeated up to it.
 struct VertexCloudView {
   const double *x = nullptr, *y = nullptr, *z = nullptr;
   uint32_t padded = 0;
-  const SupportTable* table = nullptr;  ///< where it is faster than a scan
+  const SupportTable* table = nullptr;  ///< if it is faster than a scan
 
   Plain3 operator[](uint32_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// The vertices of a polyhedron for support queries; cheap to search for any number of them.
+/// The vertices of a polyhedron for support queries, fast for any number of them.
 class VertexCloud {
  public:
   explicit VertexCloud(std::span<const Vec3> vertices);
@@ -62,9 +62,9 @@ inline uint32_t scan_few_vertices(const VertexCloudView& v, const Plain3& d) {
   return bits ? uint32_t(__builtin_ctz(unsigned(bits))) : 0;  // none for NaN
 }
 
-/// Up to this many a scan is faster than a table.
+/// Up to this many vertices a scan is faster than a table.
 constexpr uint32_t scan_limit = 64;
-/// Vertices are looked at in blocks of this many, where there are more than a few.
+/// More than a few vertices are scanned in blocks of this many.
 constexpr uint32_t scan_block = 16;
 
 /// The first of the vertices furthest along d; the same on every machine.

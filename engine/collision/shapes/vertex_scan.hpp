@@ -3,18 +3,18 @@
 
 #include <immintrin.h>
 
-/// Scans of vertices as types, for loops that are made once for every width of registers. All find
-/// the same vertices, by the same roundings. What a loop is to inline into itself for a wider
-/// machine it must be compiled for as a whole: one function with the target and `flatten`.
+/// Scans of vertices as types, for loops that are compiled for each register width. All find the
+/// same vertices, with the same rounding. For the wider registers the whole loop must be one
+/// function with the target attribute and `flatten`, so that the scan is inlined.
 namespace tumble {
 
-/// The best so far, and a block of vertices. Chosen without a jump: which block is best cannot be
-/// foreseen.
+/// The best vertex so far, updated by blocks. Without branches, since the best block cannot be
+/// predicted.
 struct BestOfBlocks {
   uint32_t vertex = 0;
   double height = -std::numeric_limits<double>::infinity();
 
-  /// Bit k of `highest`: vertex k of the block has the greatest height `most`.
+  /// Bit k of `highest` is set if vertex k of the block has its greatest height, `most`.
   void offer(double most, unsigned highest, uint32_t block) {
     const uint32_t first = block + uint32_t(__builtin_ctz(highest | 1u << 31));
     const uint32_t better = -uint32_t(most > height);
@@ -23,10 +23,10 @@ struct BestOfBlocks {
   }
 };
 
-/// By registers of two numbers, which every machine has.
+/// In registers of two numbers, which every machine has.
 struct ScanByTwo {
   static uint32_t few(const VertexCloudView& v, const Plain3& d) { return scan_few_vertices(v, d); }
-  /// Of v the vertex furthest against d, and of w the one furthest along it.
+  /// The vertex of v extreme along -d, and that of w extreme along d.
   static void opposite_few(const VertexCloudView& v, const VertexCloudView& w, const Plain3& d,
                            uint32_t& of_v, uint32_t& of_w) {
     of_v = few(v, -d);
@@ -48,7 +48,7 @@ struct ScanByTwo {
     return best.vertex;
   }
 
-  /// row * v + shift of all vertices, for few.
+  /// row * v + shift for all vertices of a small cloud.
   static void turn(const VertexCloudView& v, const Plain3& row, double shift, double* to) {
     const __m128d x = _mm_set1_pd(row.x), y = _mm_set1_pd(row.y), z = _mm_set1_pd(row.z),
                   t = _mm_set1_pd(shift);
@@ -56,7 +56,8 @@ struct ScanByTwo {
       _mm_store_pd(to + i, _mm_add_pd(FourHeights::two(v, i, x, y, z), t));
   }
 
-  /// By the transpose of a rotation that is given by columns: three numbers, and room for a fourth.
+  /// Multiplies by the transpose of a rotation that is given by columns; writes three numbers, with
+  /// room for a fourth.
   static void turn_back(const double* R, double x, double y, double z, double* to) {
     for (size_t k = 0; k < 3; ++k) to[k] = R[3 * k] * x + R[3 * k + 1] * y + R[3 * k + 2] * z;
   }
@@ -65,7 +66,7 @@ struct ScanByTwo {
 #if defined(__x86_64__)
 #define TUMBLE_AVX [[gnu::target("avx")]]
 
-/// By registers of four numbers.
+/// In registers of four numbers.
 struct ScanByFour {
   TUMBLE_AVX static uint32_t few(const VertexCloudView& v, const Plain3& d) {
     const __m256d x = _mm256_set1_pd(d.x), y = _mm256_set1_pd(d.y), z = _mm256_set1_pd(d.z);
@@ -113,7 +114,7 @@ struct ScanByFour {
 
  private:
   TUMBLE_AVX static __m256d strided(const double* p) { return _mm256_set_pd(0, p[6], p[3], p[0]); }
-  /// The first of two blocks' heights that is m; the last for NaN.
+  /// Index of the first height in two blocks that equals m; the last for NaN.
   TUMBLE_AVX static uint32_t first_of_few(const __m256d& h0, const __m256d& h1, const __m256d& m,
                                           uint32_t second) {
     const unsigned bits = unsigned(equal(h0, m)) | unsigned(equal(h1, m) | 8) << second;
@@ -125,7 +126,7 @@ struct ScanByFour {
                                      _mm256_mul_pd(_mm256_loadu_pd(v.y + i), y));
     return _mm256_add_pd(xy, _mm256_mul_pd(_mm256_loadu_pd(v.z + i), z));
   }
-  /// Of four numbers the greatest, four times.
+  /// The greatest of four numbers, in all four places.
   TUMBLE_AVX static __m256d greatest(__m256d m) {
     m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
     return _mm256_max_pd(m, _mm256_permute_pd(m, 5));

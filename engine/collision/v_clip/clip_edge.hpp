@@ -6,18 +6,18 @@
 
 namespace tumble::vclip {
 
-/// What is left of an edge e(lambda), lambda in [0, 1], inside a Voronoi region, and the neighbours
-/// of the region's feature behind whose planes its ends were cut off (Mirtich 1998, clipEdge).
+/// The part of an edge e(lambda), lambda in [0, 1], inside a Voronoi region, and the neighbours of
+/// the region's feature whose planes clipped its ends (Mirtich 1998, clipEdge).
 struct ClippedEdge {
   static constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
 
   double min = 0, max = 1;
-  uint32_t min_neighbour = none;  ///< where e enters the region; none when its tail is inside
-  uint32_t max_neighbour = none;  ///< where e leaves it; none when its head is inside
+  uint32_t min_neighbour = none;  ///< where e enters the region; none if its tail is inside
+  uint32_t max_neighbour = none;  ///< where e leaves it; none if its head is inside
   bool simply_excluded = false;   ///< all of e is behind the plane of `min_neighbour`
 
-  /// Cuts with the plane towards `neighbour`, from the signed distances of tail and head, positive
-  /// on the region's side. False when nothing is left.
+  /// Clips by the plane towards `neighbour`, given the signed distances of tail and head, positive
+  /// on the region's side. False if nothing is left.
   bool cut(double tail, double head, uint32_t neighbour) {
     if (tail < 0 && head < 0) {
       min_neighbour = max_neighbour = neighbour;
@@ -41,8 +41,9 @@ struct ClippedEdge {
   }
 };
 
-/// Nearest points a + s u and b + t v of two segments with unit directions and lengths: exact to
-/// rounding in the distance even for lines that are almost parallel, whose s and t are loose.
+/// Nearest points a + s u and b + t v of two segments with unit directions and these lengths. The
+/// distance is exact up to rounding even for nearly parallel lines, for which s and t are
+/// inaccurate.
 struct SegmentsNearest {
   double s = 0, t = 0;      ///< [m]
   Vec3 gap = Vec3::Zero();  ///< from the point on the first to the point on the second

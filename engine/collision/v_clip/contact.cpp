@@ -1,4 +1,4 @@
-// Features that meet: do the bodies touch there or overlap?
+// Features that meet: decides whether the bodies touch or overlap there.
 #include "engine/collision/v_clip/walk.hpp"
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 namespace tumble::vclip {
 namespace {
 
-/// What one body looks like at its witness point, in frame 0: the corners around it, relative to
-/// the point, the normals of the faces there and the directions of the edges.
+/// The surroundings of a body's witness point, in frame 0: the adjacent corners, relative to the
+/// point, the normals of the faces there and the directions of the edges.
 struct Neighbourhood {
   std::vector<Vec3> corners, normals, edges;
 };
@@ -39,7 +39,7 @@ Neighbourhood around(const VoronoiPolyhedron& model, const PolyhedronFeature& x,
   return n;
 }
 
-/// How far the two reach over the plane across `n` through the contact.
+/// By how much the two extend beyond the plane with normal `n` through the contact.
 double overlap_across(const Neighbourhood& a, const Neighbourhood& b, const Vec3& n) {
   double most = 0;
   for (const Vec3& c : a.corners) most = std::max(most, n.dot(c));
@@ -58,7 +58,8 @@ Move judge_touching(Walk& walk) {
   Neighbourhood b = around(*B.model, walk.at[1], pb);
   for (auto* list : {&b.corners, &b.normals, &b.edges})
     for (Vec3& d : *list) d = B.turn(d);
-  // Two cones that can be parted are parted by a face of one or by a plane along an edge of each.
+  // Two cones that can be separated are separated by a face of one or by a plane along an edge of
+  // each.
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](const Vec3& n) {
     const double overlap = overlap_across(a, b, n);

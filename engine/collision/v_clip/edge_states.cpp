@@ -23,7 +23,7 @@ PolyhedronFeature face(uint32_t i) {
 }
 
 /// The greatest slope [m over |r|] into the faces of both edges, for r from the first to the
-/// second, in frame 0 and upright on both.
+/// second, in frame 0 and perpendicular to both.
 double slope_into_faces(const Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1,
                         const Vec3& r) {
   const Vec3 back = walk.side[0].turn(-r);
@@ -42,8 +42,8 @@ Move write_edge_answer(Walk& walk, const Vec3& a, const Vec3& b, const Vec3& r, 
   return Move::arrived;
 }
 
-/// The common case: lines at an angle, whose nearest points are inside both edges and both regions.
-/// Says at once what the clipping and the derivatives would.
+/// The usual case: skew lines whose nearest points are inside both edges and both regions. Gives
+/// the result of the clipping and the derivatives directly.
 bool cross_between_ends(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1,
                         const Line& line) {
   const Vec3 w = line.tail - e0.tail;
@@ -54,7 +54,7 @@ bool cross_between_ends(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1
   const double s = (a - c * b) * inverse, t = (c * a - b) * inverse;
   if (!(s >= 0 && s <= e0.length && t >= 0 && t <= e1.length)) return false;
   Vec3 r = w + t * line.direction - s * e0.direction;
-  // Once more, so that r is upright on both even when it is far shorter than w.
+  // Once more, so that r is perpendicular to both even if it is far shorter than w.
   const double a2 = r.dot(e0.direction), b2 = r.dot(line.direction);
   r += ((c * a2 - b2) * inverse) * line.direction - ((a2 - c * b2) * inverse) * e0.direction;
   const double excess = slope_into_faces(walk, e0, e1, r);
@@ -116,14 +116,14 @@ bool leaves_face_planes(const Walk& walk, size_t ie, const VoronoiEdge& e, const
   const uint32_t low = clipped.min_neighbour, high = clipped.max_neighbour;
   if (low != ClippedEdge::none && slope(clipped.min, low) > walk.epsilon) return go(low);
   if (high != ClippedEdge::none && slope(clipped.max, high) < -walk.epsilon) return go(high);
-  // Beyond one plane or the other everywhere: without a slope to choose by, unless it passes
-  // through the edge itself.
+  // Outside one plane or the other everywhere: there is no slope to choose by, unless the line
+  // passes through the edge itself.
   if (clipped.min > clipped.max && std::abs(height(clipped.min, low)) > walk.touching)
     return go(low);
   return false;
 }
 
-/// Parallel edges, or nearest points at ends that the tests left to rounding.
+/// Result for parallel edges, or for nearest points at ends that the tests left undecided.
 Move answer_by_segments(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1,
                         const Line& line) {
   const SegmentsNearest near =
@@ -140,7 +140,7 @@ Move answer_by_segments(Walk& walk, const VoronoiEdge& e0, const VoronoiEdge& e1
   return Move::arrived;
 }
 
-/// The edge or corner of f that comes nearest to a line that passes f by.
+/// The edge or corner of f nearest to a line that does not cross f.
 PolyhedronFeature nearest_on_outline(const Walk& walk, const VoronoiPolyhedron& model,
                                      const VoronoiFace& f, const Line& line) {
   double least = std::numeric_limits<double>::infinity();

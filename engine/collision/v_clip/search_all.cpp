@@ -117,7 +117,8 @@ Move search_all(Walk& walk) {
   const Vec3& n = plane.normal;
   Nearest best;
   best.found.points = {Vec3::Zero(), Vec3::Zero()};
-  // A slab for a distance that was guessed is searched again with the distance that it gave.
+  // The slab is based on an estimate of the distance; the search is repeated with the distance
+  // found.
   for (double bound = plane.distance; best.distance > bound; bound = best.distance) {
     const auto near = candidates(walk, n, bound);
     compare_edges(walk, near, best);

@@ -34,7 +34,7 @@ struct Proposals {
   const Walk& walk;
   PartingDirection best;
 
-  /// Whether the best so far parts the bodies or lets them touch.
+  /// Whether the best direction so far separates the bodies or lets them touch.
   bool good() const { return best.gap >= -walk.touching; }
   void offer(const Vec3& n) {
     const double gap = gap_across(walk, n);
@@ -42,8 +42,8 @@ struct Proposals {
   }
 };
 
-/// Faces of both and all pairs of edges whose arcs on the sphere of normals cross: a face of the
-/// difference of the bodies each, hence complete (Gottschalk 1996; Gregorius 2013).
+/// Offers the faces of both, and all pairs of edges whose arcs on the Gauss sphere cross: these are
+/// all faces of the Minkowski difference (Gottschalk 1996; Gregorius 2013).
 void offer_all(Proposals& p) {
   const Side &A = p.walk.side[0], &B = p.walk.side[1];
   for (const VoronoiFace& f : A.model->faces) p.offer(f.normal);

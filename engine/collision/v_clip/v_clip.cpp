@@ -8,12 +8,12 @@
 namespace tumble {
 namespace {
 
-/// In units of the pair's scale: rounding of a signed distance, contact, and the error that an
-/// answer may have before it is searched for again.
+/// In units of the pair's scale: rounding of a signed distance, distance that counts as contact,
+/// and error of a result above which the search is repeated exhaustively.
 constexpr double plane_tolerance = 2e-15, contact_tolerance = 1e-13, doubtful_error = 2e-13;
 
-/// Columns of the rotation, read number by number: a caller has often just written them, in pairs
-/// that are not these, and to read across two pairs would make the processor wait.
+/// Columns of the rotation, read number by number: callers have often just stored them in other
+/// pairs, and a load across two stores would stall the processor.
 std::array<Plain3, 3> columns(const Mat3& R) {
   const double* m = R.data();
   return {Plain3{m[0], m[1], m[2]}, Plain3{m[3], m[4], m[5]}, Plain3{m[6], m[7], m[8]}};
@@ -69,12 +69,12 @@ vclip::Move examine(vclip::Walk& w) {
     case pair(edge, face):
       return edge_face(w, 0);
     default:
-      return edge_face(w, 1);  // two faces never come about
+      return edge_face(w, 1);  // two faces never occur
   }
 }
 
-/// Walks to the end. False when it comes back to a pair it has seen (Brent's algorithm): the
-/// walk would go round for ever.
+/// Walks to the end. False if it comes back to an earlier pair (Brent's algorithm), as it would
+/// then never end.
 bool walk_to_end(vclip::Walk& w, int& steps, vclip::Move& move,
                  std::vector<ClosestFeatures>* trace) {
   ClosestFeatures seen = w.at;

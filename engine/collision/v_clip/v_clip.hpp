@@ -79,10 +79,10 @@ enum class VClipState {
   invalid,      ///< a pose is not finite, or too far for double precision
 };
 
-/// Who answered.
+/// Which algorithm gave the result.
 enum class VClipAnswer {
   walk,
-  search_after_cycle,  ///< the walk came back to where it was
+  search_after_cycle,  ///< the walk came back to an earlier pair
   search_after_doubt,  ///< the walk ended, but rounding could hide a nearer pair
 };
 
@@ -93,17 +93,18 @@ struct VClipResult {
   Vec3 a = Vec3::Zero();  ///< witness on A, query frame; zero when penetrating
   Vec3 b = Vec3::Zero();
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B; zero when penetrating
-  /// The closest features, or those at which penetration was seen. Start the next query here.
+  /// The closest features, or those at which penetration was detected. For the start of the next
+  /// query.
   ClosestFeatures features;
-  /// Pairs of features that were examined; 0 when the balls inside the two overlap, which is
-  /// penetration without a walk.
+  /// Number of pairs of features examined; 0 if the inscribed balls of the two overlap, which
+  /// proves penetration without a walk.
   int steps = 0;
   VClipAnswer answer = VClipAnswer::walk;
 };
 
 struct VClipOptions {
-  /// The features of an earlier query of the same two polyhedra; numbers out of range are ignored.
-  /// Without it the walk starts at the vertices furthest along the line of the centres.
+  /// The features of an earlier query of the same two polyhedra; indices out of range are ignored.
+  /// Without it the walk starts at the vertices extreme along the line of the centres.
   const ClosestFeatures* start = nullptr;
   /// Receives each pair that is examined, for drawing the walk.
   std::vector<ClosestFeatures>* trace = nullptr;

@@ -30,8 +30,8 @@ WorstSpoke worst_spoke(const VoronoiPolyhedron& model, uint32_t v, const Vec3& r
   return worst;
 }
 
-/// Writes the answer for points that are `r` apart, of which the first lies on side `from`; the
-/// slopes along the neighbouring edges and faces were at most `excess` [m] over a run of |r|.
+/// Writes the result for points that are `r` apart, of which the first is on side `from`; the
+/// slopes along the neighbouring edges and faces are at most `excess` [m] over a length of |r|.
 Move answer_of_points(Walk& walk, size_t frame, size_t from, const Vec3& first, const Vec3& second,
                       const Vec3& r, double excess) {
   Answer& found = walk.found;
@@ -124,7 +124,7 @@ Move vertex_edge(Walk& walk, size_t iv) {
     y = {FeatureKind::face, e.faces[over[1] > over[0]]};
     return Move::onward;
   }
-  // From v to e, made upright on e once more, since |q| may be much longer.
+  // From v to e, projected to be perpendicular to e once more, since |q| may be much longer.
   Vec3 r = s * e.direction - q;
   r -= e.direction.dot(r) * e.direction;
   const WorstSpoke worst = worst_spoke(*V.model, v, E.turn(r));
@@ -156,7 +156,7 @@ Move vertex_face(Walk& walk, size_t iv) {
   }
   const double height = f.normal.dot(p) - f.offset;
   const double upright = height < -walk.touching ? -1 : 1;
-  // Within the tolerance of the face only an edge that goes well below it is a descent.
+  // Within the tolerance of the face only an edge that goes well below it counts as descending.
   const double least = std::abs(height) <= walk.touching ? height + walk.touching : walk.epsilon;
   const Vec3 down = F.turn(f.normal) * -upright;
   const VoronoiSpoke* steepest = nullptr;

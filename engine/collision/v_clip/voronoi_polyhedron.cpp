@@ -12,7 +12,7 @@ Error voronoi_fault(std::string message) {
   return Error{ErrorCode::invalid_argument, "V-Clip: " + std::move(message), {}, {}};
 }
 
-/// Two faces may rise over each other by this share of the radius: hulls merge facets.
+/// Two adjacent faces may rise over each other by this share of the radius: hulls merge facets.
 constexpr double convexity_tolerance = 1e-6;
 
 Status add_edges(const ConvexPolyhedron& p, VoronoiPolyhedron& out) {
@@ -80,7 +80,7 @@ void add_faces(const ConvexPolyhedron& p, VoronoiPolyhedron& out) {
   }
 }
 
-/// No face rises over a neighbour: with a closed surface of this kind that is convexity.
+/// Checks that no face rises over a neighbour: for a closed surface this is convexity.
 Status check_convex(const ConvexPolyhedron& p, const VoronoiPolyhedron& v) {
   for (const VoronoiEdge& e : v.edges) {
     for (size_t k = 0; k < 2; ++k) {

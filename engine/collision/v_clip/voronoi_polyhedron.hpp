@@ -5,7 +5,7 @@
 namespace tumble {
 
 /// An edge seen from one of its ends. Its direction is the normal of the vertex-edge Voronoi plane
-/// through that end: the vertex's region lies behind all planes of its spokes.
+/// through that end: the vertex's region is behind all planes of its spokes.
 struct VoronoiSpoke {
   Vec3 direction;     ///< unit, away from the vertex
   double length = 0;  ///< of the edge [m]
@@ -13,9 +13,9 @@ struct VoronoiSpoke {
   uint32_t other = 0;  ///< the vertex at the far end
 };
 
-/// An edge with its four Voronoi planes: two vertex-edge planes across it at its ends, and two
-/// face-edge planes that hold it, with normals `into_face` in the planes of its faces. The edge's
-/// region lies between the first two and behind the others.
+/// An edge with its four Voronoi planes: two vertex-edge planes perpendicular to it at its ends,
+/// and two face-edge planes that contain it, with normals `into_face` in the planes of its faces.
+/// The edge's region is between the first two and behind the others.
 struct VoronoiEdge {
   Vec3 tail = Vec3::Zero();
   Vec3 direction = Vec3::Zero();  ///< unit, from vertices[0] (tail) to vertices[1] (head)
@@ -38,9 +38,9 @@ struct VoronoiFace {
   uint32_t first_side = 0, side_count = 0;
 };
 
-/// A convex polyhedron with the Voronoi planes of the space around it, worked out once and laid out
-/// flat in the order in which V-Clip reads them. Features have the numbers that they have in the
-/// ConvexPolyhedron. All in its body frame.
+/// A convex polyhedron with the Voronoi planes of the space around it, computed once and stored in
+/// flat arrays in the order in which V-Clip reads them. Features have the indices that they have in
+/// the ConvexPolyhedron. All in its body frame.
 struct VoronoiPolyhedron {
   std::vector<Vec3> vertices;
   std::vector<uint32_t> spoke_first;  ///< size vertices + 1
@@ -50,15 +50,15 @@ struct VoronoiPolyhedron {
   std::vector<VoronoiSide> sides;  ///< face after face, counter-clockwise
 
   Vec3 centre = Vec3::Zero();  ///< mean of the vertices
-  double radius = 0;           ///< of the ball about `centre` that holds it [m]
+  double radius = 0;           ///< of the ball about `centre` that contains it [m]
   double inner_radius = 0;     ///< of the ball about `centre` inside it [m]
-  /// The greatest distance of a vertex from the plane of a face that it belongs to: answers err by
-  /// that much where facets were merged with a tolerance [m].
+  /// The greatest distance of a vertex from the plane of one of its faces [m]: the error of
+  /// distances if facets were merged with a tolerance.
   double flatness = 0;
-  /// The least sine of the obtuse corners of faces: what is nearest to a straight corner. Bounds
-  /// by how much a slope at a vertex can hide a greater one of the whole polyhedron.
+  /// The least sine of the obtuse corners of faces, that of the corner nearest to straight. It
+  /// bounds how much greater than the slopes at a vertex a slope of the whole polyhedron can be.
   double least_corner_sine = 1;
-  std::array<uint32_t, 8> octant_start{};  ///< a support vertex per octant, where climbs begin
+  std::array<uint32_t, 8> octant_start{};  ///< a support vertex per octant, at which climbs begin
 
   std::span<const VoronoiSpoke> spokes_of(uint32_t v) const {
     return {spokes.data() + spoke_first[v], spoke_first[v + 1] - spoke_first[v]};
@@ -75,12 +75,12 @@ struct VoronoiPolyhedron {
   }
 };
 
-/// Error when coordinates are not finite, an edge has no length, a face no plane, or two faces do
-/// not meet convexly.
+/// Error if coordinates are not finite, an edge has no length, a face no plane, or two faces do not
+/// meet convexly.
 Result<VoronoiPolyhedron> make_voronoi_polyhedron(const ConvexPolyhedron& polyhedron);
 
-/// A vertex furthest along `direction` (any length), by climbing along edges from the start of the
-/// direction's octant; up to rounding.
+/// A vertex extreme along `direction` (any length), up to rounding, found by climbing along edges
+/// from the start vertex of the direction's octant.
 uint32_t climb(const VoronoiPolyhedron& polyhedron, const Vec3& direction);
 
 }  // namespace tumble

@@ -3,7 +3,7 @@
 
 namespace tumble::vclip {
 
-/// One of the two polyhedra, and the map from its body frame to the other's.
+/// One of the two polyhedra, and the transform from its body frame to the other's.
 struct Side {
   const VoronoiPolyhedron* model = nullptr;
   Mat3 R;
@@ -13,15 +13,15 @@ struct Side {
   Vec3 turn(const Vec3& d) const { return R * d; }
 };
 
-/// Where a walk ended: nearest points of the two features, in the body frame of side `frame`.
+/// The end of a walk: nearest points of the two features, in the body frame of side `frame`.
 struct Answer {
   size_t frame = 0;
   std::array<Vec3, 2> points;  ///< on A, on B
   Vec3 normal = Vec3::Zero();  ///< unit, from A to B
   double distance = 0;         ///< [m]
-  /// The two polyhedra may reach over the planes across `normal` through the points by this much,
-  /// as far as the tests at the features can tell: the distance is no further than this, divided
-  /// by the sine of the straightest corner, from the truth [m].
+  /// Upper bound, as far as the tests at the features can tell, of how far the two polyhedra extend
+  /// beyond the planes with normal `normal` through the points [m]: the error of the distance is at
+  /// most this, divided by the sine of the straightest corner.
   double overshoot = 0;
 };
 
@@ -29,34 +29,35 @@ struct Answer {
 struct Walk {
   std::array<Side, 2> side;  ///< A, B
   ClosestFeatures at;
-  Vec3 centres;        ///< from A's centre to B's, frame 0
-  double apart = 0;    ///< their distance [m]
-  double scale = 0;    ///< diameters and distance of the centres [m]
-  double reach = 0;    ///< sum of the diameters [m]
-  double epsilon = 0;  ///< what rounding may do to a signed distance; planes are violated beyond it
-  double touching = 0;  ///< distances up to this are contact [m]
+  Vec3 centres;      ///< from A's centre to B's, frame 0
+  double apart = 0;  ///< their distance [m]
+  double scale = 0;  ///< diameters and distance of the centres [m]
+  double reach = 0;  ///< sum of the diameters [m]
+  /// Rounding error of a signed distance; a plane is violated only beyond it [m].
+  double epsilon = 0;
+  double touching = 0;  ///< distances up to this count as contact [m]
   Answer found;
 };
 
 enum class Move {
   onward,       ///< `at` has changed
-  arrived,      ///< `found` is the answer
-  penetrating,  ///< the bodies overlap; `at` is where this was seen
+  arrived,      ///< `found` is the result
+  penetrating,  ///< the bodies overlap; `at` is where this was detected
 };
 
-/// The five states; `v` and `e` say which side (0 or 1) has the vertex or the edge.
+/// The five states; `v` and `e` are the side (0 or 1) that has the vertex or the edge.
 Move vertex_vertex(Walk& walk);
 Move vertex_edge(Walk& walk, size_t v);
 Move vertex_face(Walk& walk, size_t v);
 Move edge_edge(Walk& walk);
 Move edge_face(Walk& walk, size_t e);
 
-/// Decides what features that meet within the tolerance mean: `arrived` with the normal of a plane
-/// between the cones of the two features, or `penetrating` when there is none.
+/// Decides the result for features that meet within the tolerance: `arrived` with the normal of a
+/// plane that separates the cones of the two features, or `penetrating` if there is none.
 Move judge_touching(Walk& walk);
 
-/// Answers without walking: GJK gives a plane between the bodies, and all pairs of features that
-/// reach the slab in which the nearest points must lie are compared. Cannot cycle.
+/// Finds the result without a walk: GJK gives a separating plane, and all pairs of features that
+/// reach into the slab in which the nearest points must be are compared. Cannot cycle.
 Move search_all(Walk& walk);
 
 }  // namespace tumble::vclip

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Elementary functions from + - * / and sqrt only, so that their bits are the same on every CPU,
-/// compiler and C library. Code that changes simulation state calls these, never <cmath>'s.
-/// Errors are stated in units in the last place (ulp) and tested against extended precision.
+/// Elementary functions built from + - * / and sqrt only, so that their bits are the same on every
+/// CPU, compiler and C library. Code that changes simulation state calls these instead of <cmath>.
+/// Errors are given in units in the last place (ulp) and tested against extended precision.
 namespace tumble::det {
 
 constexpr double pi = 3.14159265358979323846;

@@ -7,9 +7,8 @@
 
 namespace tumble::lcp {
 
-/// The nearest point to t in the section of the group's cone at axial value a: a disc or a square
-/// of half-width slope a (a point where a <= 0). For sliding groups the prescribed point, whatever
-/// t.
+/// The point nearest to t in the section of the group's cone at axial value a: a disc or square of
+/// half-width slope a (a point if a <= 0). For sliding groups the prescribed point, for any t.
 inline std::array<double, 2> nearest_lateral(const ConeGroup& g, double a,
                                              std::array<double, 2> t) {
   const double radius = g.slope * std::max(a, 0.0);

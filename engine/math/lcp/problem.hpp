@@ -8,27 +8,28 @@
 
 #include <Eigen/Core>
 
-/// Linear complementarity with bounds and cones. No unit is meant anywhere: what the unknowns are
-/// is the caller's affair.
+/// Linear complementarity with bounds and cones. The code is independent of the meaning and units
+/// of the unknowns.
 namespace tumble::lcp {
 
 using VecX = Eigen::VectorXd;
 using MatX = Eigen::MatrixXd;
 
 enum class ConeMode : uint8_t {
-  undecided,  ///< the lateral part lies within the cone and opposes w_lateral when on its surface
-  sliding,    ///< z_lateral = -slope z_axial direction, whatever w_lateral
+  /// The lateral part is in the cone, and opposes w_lateral on its surface.
+  undecided,
+  sliding,  ///< z_lateral = -slope z_axial direction, for any w_lateral
 };
 
 enum class ConeShape : uint8_t {
   circular,  ///< |z_lateral| <= slope z_axial
-  pyramid,   ///< |z_lateral[k]| <= slope z_axial for each k by itself
+  pyramid,   ///< |z_lateral[k]| <= slope z_axial for each k separately
 };
 
-/// Three unknowns bound together: with axial a and laterals t
+/// Three unknowns coupled by a cone: for axial a and laterals t
 ///   z_a >= 0, w_a >= 0, z_a w_a = 0, and, undecided,
-///   z_t in the cone of the given slope, w_t = -k z_t with k >= 0, k = 0 inside the cone
-/// (for a pyramid: for each lateral unknown by itself).
+///   z_t in the cone of this slope, w_t = -k z_t with k >= 0, k = 0 inside the cone
+/// (for a pyramid: for each lateral unknown separately).
 struct ConeGroup {
   int axial = 0;                 ///< its bounds are 0 and infinity
   std::array<int, 2> lateral{};  ///< their bounds are infinite
@@ -51,15 +52,15 @@ struct LcpProblem {
   int size() const { return int(b.size()); }
   /// All bounds 0 and infinity, no groups.
   static LcpProblem plain(MatX A, VecX b);
-  /// An undecided, circular group of an axial unknown and the two that follow it.
+  /// Adds an undecided, circular group of an axial unknown and the two that follow it in index.
   ConeGroup& add_group(int axial, double slope);
 };
 
-/// Refuses unequal sizes, non-finite A or b, NaN or crossed bounds, groups that share unknowns,
-/// name unknowns that do not exist, have wrong bounds, a negative or non-finite slope or (sliding)
-/// a direction that is not of unit length. An empty problem is right, and solved.
+/// Refuses unequal sizes, non-finite A or b, NaN or crossed bounds, and groups that share unknowns,
+/// have indices out of range, wrong bounds, a negative or non-finite slope, or (sliding) a
+/// direction that is not of unit length. An empty problem is valid, and solved.
 Status check(const LcpProblem& problem);
-/// The same without a look at A.
+/// The same without checking A.
 Status check_conditions(const LcpProblem& problem);
 
 /// Refuses a matrix with |A_ij - A_ji| > 1e-10 sqrt(A_ii A_jj).

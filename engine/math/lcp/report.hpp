@@ -6,23 +6,24 @@
 namespace tumble::lcp {
 
 enum class LcpStatus : uint8_t {
-  solved,            ///< residual within the tolerance asked for
-  infeasible,        ///< proved to have no solution: `ray` is the proof (see ray_residual())
-  ray,               ///< ended on the ray given; for matrices that are not semi-definite no proof
-  not_semidefinite,  ///< the method needs a positive semi-definite A, and this is none
+  solved,      ///< the residual is within the given tolerance
+  infeasible,  ///< proved to have no solution: `ray` is the proof (see ray_residual())
+  /// Ended on the ray in `ray`; no proof for matrices that are not semi-definite.
+  ray,
+  not_semidefinite,  ///< the method needs a positive semi-definite A, and this one is not
   singular,          ///< enumeration only: none found, and singular sets left it undecided
-  max_iterations,    ///< the limit of pivots or iterations came first; z is the best known
+  max_iterations,    ///< the limit of pivots or iterations was reached; z is the best found
   cycling,           ///< a set of clamped unknowns came back without progress
-  numeric,           ///< ended, but the residual of the answer is too large to be believed
+  numeric,           ///< ended, but the residual is too large
 };
 
-/// What a solver says about its answer. Residuals are those of validate().
+/// Report of a solver on its result. Residuals are those of validate().
 struct LcpReport {
   LcpStatus status = LcpStatus::max_iterations;
   int iterations = 0;          ///< pivots of the pivoting methods, sweeps or steps of the others
   double residual = 0;         ///< greatest violation of any condition [-]
   double complementarity = 0;  ///< greatest product of distance from a bound and |w| [-]
-  std::string_view solver;     ///< name of the one that answered, in all_lcp_solvers()
+  std::string_view solver;     ///< name of the solver that gave the result, in all_lcp_solvers()
 
   bool solved() const { return status == LcpStatus::solved; }
 };
@@ -33,7 +34,7 @@ struct LcpSolution {
   LcpReport report;
 };
 
-/// What a stage of solve_cones() came to.
+/// Result of a stage of solve_cones().
 struct ConeAttempt {
   std::string_view stage;
   LcpStatus status = LcpStatus::max_iterations;
@@ -43,7 +44,7 @@ struct ConeAttempt {
 };
 
 struct LcpOptions {
-  double tolerance = 1e-9;  ///< largest residual that counts as solved
+  double tolerance = 1e-9;  ///< largest residual of a solved problem
   int max_iterations = 0;   ///< 0: the method's own limit
 };
 

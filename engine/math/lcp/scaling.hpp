@@ -6,14 +6,14 @@
 namespace tumble::lcp {
 
 /// Powers of two d with d_i^2 A_ii in [1/2, 2); one d for the three unknowns of a group, by the
-/// greatest of their diagonal entries; 1 where the diagonal is not positive. In z = d z', w = w' /
-/// d, A' = d A d, b' = d b all entries of a semi-definite A' are at most 2, whatever the units of
+/// greatest of their diagonal entries; 1 where the diagonal is not positive. With z = d z', w = w'
+/// / d, A' = d A d, b' = d b all entries of a semi-definite A' are at most 2, whatever the units of
 /// rows; the change is exact.
 std::vector<double> scaling_of(const LcpProblem& problem);
 /// The same from the diagonal of A.
 std::vector<double> scaling_of(std::vector<double> diagonal, const std::vector<ConeGroup>& groups);
 
-/// A problem in those units.
+/// A problem in scaled units.
 struct ScaledProblem {
   int n = 0;
   std::vector<double> d;  ///< units of the unknowns

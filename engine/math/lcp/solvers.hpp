@@ -6,12 +6,12 @@
 
 namespace tumble::lcp {
 
-/// A solver and what it can do. Each refuses what it cannot with an Error.
+/// A solver and its capabilities. It returns an Error for problems that it cannot handle.
 struct LcpSolverEntry {
   std::string_view name;
-  bool unsymmetric;  ///< A need not be symmetric
-  bool undecided;    ///< groups of mode undecided
-  bool sliding;      ///< groups of mode sliding
+  bool unsymmetric;  ///< accepts an unsymmetric A
+  bool undecided;    ///< accepts groups of mode undecided
+  bool sliding;      ///< accepts groups of mode sliding
   bool proves;       ///< for semi-definite A without groups: solves, or proves infeasible
   Result<LcpSolution> (*solve)(const LcpProblem&, const LcpOptions&);
 };

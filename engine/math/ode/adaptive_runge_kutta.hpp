@@ -3,10 +3,10 @@
 
 namespace tumble::ode {
 
-/// Dormand and Prince's 5(4) with steps as long as the tolerance allows: of an error estimated for
-/// each entry no more than System::allowed_errors(), the greatest of all entries counting. The
-/// solution of fifth order is taken. A trial that meets a non-finite derivative, or none, is
-/// repeated with less, so that a step can creep up to a singularity but not across.
+/// Dormand and Prince's 5(4) with adaptive steps: the estimated error of each entry is at most
+/// System::allowed_errors(), where the worst entry decides. The solution of fifth order is used. A
+/// trial with a derivative that is not finite or not available is repeated with a shorter step, so
+/// that steps can approach a singularity but not cross it.
 class AdaptiveRungeKutta final : public Integrator {
  public:
   AdaptiveRungeKutta() : stages_(dormand_prince_tableau()) {}
@@ -22,10 +22,10 @@ class AdaptiveRungeKutta final : public Integrator {
   void interpolate(double theta, std::span<double> y) const override;
 
  private:
-  /// A step of about one percent of the allowed error (Hairer, Norsett, Wanner I, II.4, "Starting
-  /// step size"), at most |h|; k(0) is known.
+  /// Initial step with an error of about one percent of the allowed one (Hairer, Norsett, Wanner I,
+  /// II.4, "Starting step size"), at most |h|; k(0) must be set.
   double first_step(System& system, double t, double h, StepReport& report);
-  /// Stages 1 to 6 and y1_; false if a derivative fails.
+  /// Computes stages 1 to 6 and y1_; false if a derivative fails.
   bool try_step(System& system, double t, double h, StepReport& report);
   /// Error of the trial in units of the allowed one; `component` gets the worst entry.
   double estimate(const System& system, double h, size_t& component);

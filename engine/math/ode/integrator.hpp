@@ -9,33 +9,33 @@
 
 namespace tumble::ode {
 
-/// What can be tuned; each integrator reads its share.
+/// Settings; each integrator uses some of them.
 struct Settings {
-  Tolerance tolerance;            ///< adaptive steps: of one step
+  Tolerance tolerance;            ///< adaptive steps: per step
   double min_step = 1e-12;        ///< adaptive steps: least |h| [s]
   uint32_t max_steps = 1u << 20;  ///< in one advance()
-  /// Newton's method stops when a correction is below this; it converges at least linearly with a
-  /// small factor by then, so that what is left is far smaller.
+  /// Newton's method stops when a correction is below this; by then it converges at least linearly
+  /// with a small factor, so that the remaining error is far smaller.
   Tolerance newton{1e-12, 1e-12, 1e-11};
   uint32_t max_newton_iterations = 50;
 };
 
-/// What an adaptive integrator remembers from step to step: part of a snapshot.
+/// Memory of an adaptive integrator between steps; part of a snapshot.
 struct AdaptiveState {
   double h = 0;         ///< the next step to try [s], > 0; 0: none yet
   double error = 1e-4;  ///< of the last step taken, in units of the allowed error [-]
   friend bool operator==(const AdaptiveState&, const AdaptiveState&) = default;
 };
 
-/// What the caller says of the state that a step starts from.
+/// Relation of a step to the last one.
 enum class Start : uint8_t {
-  fresh,      ///< nothing
+  fresh,      ///< unrelated
   continued,  ///< y and the system are as the last step left them: its last derivative is reused
 };
 
-/// Advances y' = f(t, y). Holds the memory that a step needs, so that steps in a row with equal
-/// sizes do not allocate; the result depends on t, h, y, the settings and adaptive_state() only,
-/// and has the same bits on every machine if f has.
+/// Advances y' = f(t, y). Owns its scratch memory, so that successive steps of equal size do not
+/// allocate; the result depends on t, h, y, the settings and adaptive_state() only, and has the
+/// same bits on every machine if f has.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -44,22 +44,21 @@ class Integrator {
   virtual int order() const = 0;
   /// Whether step() may stop short of h.
   virtual bool adaptive() const { return false; }
-  /// Whether oscillations and dampers that are much faster than a step only die away: it needs no
-  /// shorter steps for their sake.
+  /// Whether oscillations and dampers that are much faster than a step are merely damped out, so
+  /// that they do not require shorter steps.
   virtual bool bears_stiffness() const { return false; }
 
-  /// One step from t to t + h, backwards for h < 0, or, where adaptive(), towards it: `advanced`
-  /// of the report says how far. h = 0 leaves all as it is. Unless ok, y is untouched.
+  /// One step from t to t + h (backwards for h < 0), or, if adaptive(), part of it: the report's
+  /// `advanced` says how far. h = 0 changes nothing. Unless ok, y is unchanged.
   StepReport step(System& system, double t, double h, std::span<double> y,
                   Start start = Start::fresh);
 
-  /// As many steps as it takes to reach t + h. Unless ok, y is untouched.
+  /// As many steps as are needed to reach t + h. Unless ok, y is unchanged.
   StepReport advance(System& system, double t, double h, std::span<double> y);
 
-  /// The state at a time within the last step taken, normalised: a polynomial whose error
-  /// vanishes with the integrator's own order, and that meets both ends of the step bit by bit.
-  /// No derivative is evaluated. Outside of the step it extrapolates. Only after a step that was
-  /// ok.
+  /// The state at a time within the last step, normalised: a polynomial whose error has the
+  /// integrator's own order, and which equals the states at both ends of the step bit by bit.
+  /// Evaluates no derivative. Extrapolates outside the step. Only after a step that was ok.
   void at(const System& system, double t, std::span<double> y) const;
   double step_begin() const { return t0_; }  ///< of the last step [s]
   double step_end() const { return t0_ + h_; }
@@ -70,12 +69,12 @@ class Integrator {
   Settings settings;
 
  protected:
-  /// Goes from y0_ at t towards t + h: writes y1_ (normalised), returns `advanced`.
+  /// Steps from y0_ at t towards t + h: writes y1_ (normalised), returns `advanced`.
   virtual StepReport take(System& system, double t, double h, Start start) = 0;
-  /// y0_ to y1_ at theta in [0, 1]; the straight line by default.
+  /// Interpolates between y0_ and y1_ at theta in [0, 1]; linearly by default.
   virtual void interpolate(double theta, std::span<double> y) const;
 
-  /// One derivative, counted and checked; false sets the status.
+  /// Evaluates a derivative, counts and checks it; false sets the status.
   static bool evaluate(System& system, double t, std::span<const double> y, std::span<double> dydt,
                        StepReport& report);
   /// Fills `allowed` for y; false sets the status.
@@ -92,14 +91,14 @@ class Integrator {
 struct IntegratorEntry {
   std::string_view name;
   int order;
-  std::string_view text;  ///< a line for people
+  std::string_view text;  ///< one-line description
   std::unique_ptr<Integrator> (*make)();
 };
 
 /// Every integrator by its standard name.
 const std::vector<IntegratorEntry>& all_integrators();
 
-/// Index of the first entry that is not finite; the size where all are.
+/// Index of the first entry that is not finite; the size if there is none.
 size_t first_non_finite(std::span<const double> values);
 
 }  // namespace tumble::ode

@@ -4,7 +4,7 @@
 
 namespace tumble::ode {
 
-/// The stages of an explicit Runge-Kutta step, for fixed and for chosen h.
+/// The stages of an explicit Runge-Kutta step, for fixed and for adaptive h.
 class RungeKuttaStages {
  public:
   explicit RungeKuttaStages(const Tableau& tableau) : tableau_(tableau) {}
@@ -24,7 +24,7 @@ class RungeKuttaStages {
   std::vector<double> k_;
 };
 
-/// An explicit Runge-Kutta method with the step as asked.
+/// An explicit Runge-Kutta method with fixed steps.
 class RungeKutta final : public Integrator {
  public:
   RungeKutta(std::string_view name, const Tableau& tableau)

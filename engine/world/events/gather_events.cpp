@@ -26,12 +26,12 @@ std::string name_in(const std::vector<BodyInfo>& infos, BodyId id) {
   return name.empty() ? fmt::format("body {}", id.index) : name;
 }
 
-/// Inverse of the mass that an impulse moves [1/kg].
+/// Inverse of the mass of a body that impulses can move [1/kg]; 0 for others.
 double inverse_mass(const BodyInfo& info) {
   return info.type == BodyType::dynamic && info.mass > 0 ? 1 / info.mass : 0;
 }
 
-/// Bodies of which the same is told.
+/// Bodies with the same kind of event in a tick.
 struct Group {
   std::vector<BodyId> bodies;
 
@@ -61,7 +61,7 @@ bool by_bodies(const auto& p, const auto& q) {
 std::vector<EventGatherer::PairPush> EventGatherer::pushes_of(const Frame& frame) {
   std::vector<PairPush> all;
   if (!frame.contacts) return all;
-  for (const ContactFrame& c : *frame.contacts)  // what rests does not strike
+  for (const ContactFrame& c : *frame.contacts)  // bodies at rest have no impacts
     if (const double size = c.impulse.norm(); size > 0)
       all.push_back({c.a, c.b, c.impulse, size, c.x_world, c.normal});
   std::stable_sort(all.begin(), all.end(),

@@ -7,22 +7,24 @@
 
 namespace tumble {
 
-/// Tells from the frames of ticks that follow each other what has happened in them: by contacts and
-/// velocities, joints, sleep, bodies and particles that are new or gone, and the statistics. It
-/// asks nothing of the world, and costs about one pass over the contacts.
+/// Finds out what happened in a tick by comparing its frame with that of the tick before: contacts
+/// and velocities, joints, sleep, bodies and particles that are new or gone, and the statistics. It
+/// reads nothing but frames, and costs about one pass over the contacts.
 class EventGatherer {
  public:
-  /// Another moment, from which on it goes on: nothing has happened up to there.
+  /// Starts anew at another moment of the history: the next comparison is with this frame.
   void go_to(const Frame& frame);
-  /// What happened in the tick that led to this frame, and in no other.
+  /// The events of the tick that led to this frame, which must be the tick after that of the last
+  /// frame seen.
   std::vector<WorldEvent> see(const Frame& frame);
 
  private:
   struct PairPush {
     BodyId a, b;
-    Vec3 impulse = Vec3::Zero();                    ///< of all their contacts [N s]
-    double most = 0;                                ///< of the contact that presses most [N s]
-    Vec3 x = Vec3::Zero(), normal = Vec3::UnitY();  ///< of that one
+    Vec3 impulse = Vec3::Zero();  ///< of all their contacts [N s]
+    /// Of the contact with the largest impulse [N s].
+    double most = 0;
+    Vec3 x = Vec3::Zero(), normal = Vec3::UnitY();  ///< of that contact
   };
   struct System {
     ParticleSystemId id;
@@ -40,7 +42,7 @@ class EventGatherer {
   void find_particles(const Frame& frame, const std::vector<System>& now,
                       std::vector<WorldEvent>& out) const;
 
-  // Of the frame before.
+  // Copied from the frame before.
   std::vector<std::shared_ptr<const Frame::BodyChunk>> chunks_;
   std::shared_ptr<const std::vector<BodyInfo>> infos_;
   std::shared_ptr<const std::vector<JointFrame>> joints_;

@@ -3,14 +3,15 @@
 
 namespace tumble::tolerances {
 
-/// Bodies that approach or part more slowly than in so many ticks of free fall do not strike each
-/// other [-]: what rests or rattles reaches one.
+/// Relative normal speed below which contact is not an impact, in ticks of free fall [-]: bodies
+/// that rest or rattle reach about one.
 inline constexpr double strike_ticks = 2;
-/// Where there is no gravity: slower is no impact [m/s].
+/// The same where there is no gravity [m/s].
 inline constexpr double least_strike = 0.01;
-/// Of a kind in a tick, more are told of together [-]: the list is for people.
+/// If a tick has more events of a kind than this, they are listed as one entry [-]: the list is for
+/// people.
 inline constexpr size_t most_told_singly = 8;
-/// Of the impacts of a tick the strongest so many are kept [-].
+/// Only so many impacts of a tick are kept, the strongest ones [-].
 inline constexpr size_t most_impacts = 32;
 
 }  // namespace tumble::tolerances

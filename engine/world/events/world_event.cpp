@@ -47,7 +47,7 @@ bool EventFilter::takes(const WorldEvent& e) const {
 void EventLog::add(std::vector<WorldEvent> events) {
   std::ranges::move(events, std::back_inserter(events_));
   if (events_.size() <= most) return;
-  // A tenth at once, so that this is rare.
+  // Drops a tenth at once, so that this is rare.
   events_.erase(events_.begin(), events_.end() - std::ptrdiff_t(most - most / 10));
 }
 

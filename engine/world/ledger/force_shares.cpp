@@ -8,8 +8,9 @@
 namespace tumble {
 namespace {
 
-/// A force on everything: what it adds shows by setting the sums to zero for it. Each of them adds
-/// once to a sum, so that the bits of the sums are those of adding it at once.
+/// A force on everything: its share is found by applying it to sums set to zero. It adds at most
+/// once to each sum, so that adding the share to the old sums gives the same bits as applying it to
+/// them.
 void add_field(const ForceDef& def, ForceContext& context, SumsBefore& before, ForceShare& share) {
   const double held = has_potential(def) ? 1 : 0;
   std::vector<RigidBody>& bodies = context.bodies.bodies;
@@ -44,7 +45,8 @@ void add_field(const ForceDef& def, ForceContext& context, SumsBefore& before, F
   }
 }
 
-/// A force with anchors that is no spring: only the sums of what they are on change.
+/// A force with anchors that is not a spring: only the sums of the anchors' bodies and particles
+/// change.
 void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& context,
                   ForceShare& share) {
   for (const Anchor& a : ends) {
@@ -67,8 +69,8 @@ void add_anchored(const ForceDef& def, const Anchors& ends, ForceContext& contex
     on.force = context.particles[on.system].force[on.index] - on.force;
 }
 
-/// What a spring does at one of its ends: force, the part of it that a potential explains, and a
-/// torque besides.
+/// Adds the effect of a spring at one of its ends: a force, the conservative part of it, and an
+/// additional torque.
 void share_end(const Anchor& end, const Vec3& force, const Vec3& held, const Vec3& turn,
                ForceContext& context, ForceShare& share) {
   if (RigidBody* b = pulled_body(end, context)) {

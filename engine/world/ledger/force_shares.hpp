@@ -11,8 +11,8 @@
 
 namespace tumble {
 
-/// What one force does to each thing that it acts on. `held` is the part of the force that comes
-/// from its potential, `held_torque` that of the torque.
+/// The effect of one force on every body and particle that it acts on. `held` is the conservative
+/// part of the force, which comes from its potential; `held_torque` that of the torque.
 struct ForceShare {
   struct OnBody {
     uint32_t slot;
@@ -32,25 +32,25 @@ struct ForceShare {
     bodies.clear();
     particles.clear();
   }
-  /// What acts on particles that are blocks now acts on bodies.
+  /// Turns the entries of particles that are blocks now into entries of bodies.
   void to_blocks(const ParticleBlocks& blocks);
 };
 
-/// Adds what a spring's pull does to what it is tied to: to the force sums, and to its share.
+/// Adds a spring's pull to the force sums of what it is attached to, and to its share.
 void share_pull(const SpringDef& spring, const SpringNet::Pull& pull, ForceContext& context,
                 ForceShare& share);
-/// The same of what a mesh does to its nodes.
+/// Likewise for the pulls of a mesh on its nodes.
 void share_pulls(const SpringMesh& mesh, std::span<const NodePull> pulls, ForceContext& context,
                  ForceShare& share);
 
-/// Springs and meshes among the forces, with their slots.
+/// The springs and meshes among the forces, with their slots.
 class SpringsInSlots {
  public:
   void clear();
-  /// Takes springs and meshes, and says whether it was one.
+  /// Adds a force if it is a spring or mesh; returns whether it is.
   bool add(const ForceDef& def, size_t slot);
   NetSprings all() const { return {springs_, meshes_}; }
-  /// Adds their pulls to the force sums, and to their shares by slot.
+  /// Adds their pulls to the force sums, and to the shares by slot.
   void share(const NetPulls& pulls, ForceContext& context, std::vector<ForceShare>& shares) const;
 
  private:
@@ -59,18 +59,18 @@ class SpringsInSlots {
   std::vector<size_t> spring_slots_, mesh_slots_;
 };
 
-/// Force sums before a force acted; memory that is kept.
+/// Copy of the force sums before a force is applied; its memory is reused.
 struct SumsBefore {
   std::vector<Vec3> force, torque;
   std::vector<std::vector<Vec3>> particles;
 };
 
-/// Which springs and meshes are taken, by slot; all where it is empty.
+/// Selects springs and meshes by slot; empty: all.
 using SpringFilter = std::function<bool(size_t slot)>;
 
-/// Adds all forces to the force sums, which begin at zero, and notes the share of each, by slot.
-/// Springs come last and all together, as they see the other forces; `supported` as in
-/// pull_springs().
+/// Adds all forces to the force sums, which must be zero at the start, and stores the share of
+/// each, by slot. Springs are evaluated last and together, because they are solved for implicitly
+/// under the other forces; `supported` as in pull_springs().
 void sum_force_shares(const std::vector<std::optional<ForceDef>>& forces, ForceContext& context,
                       std::span<const uint8_t> supported, SumsBefore& scratch,
                       std::vector<ForceShare>& shares, const SpringFilter& filter = {});

@@ -39,7 +39,7 @@ void load_ledger_state(ByteReader& in, LedgerState& s) {
   in.value(s.angular_momentum);
 }
 
-/// From one state to another.
+/// The change from one state to another.
 LedgerEntry change(const LedgerState& from, const LedgerState& to) {
   return {to.kinetic - from.kinetic, to.energy - from.energy, to.momentum - from.momentum,
           to.angular_momentum - from.angular_momentum};
@@ -94,7 +94,7 @@ void Ledger::for_accounts(Visit visit) {
   for (ForceAccount& f : forces_) visit(f.account);
 }
 
-/// The line of a force that is gone goes on in one for all of them.
+/// Adds the line of a force that no longer exists to the common line of all such forces.
 void Ledger::retire(ForceAccount& force) {
   if (!force.id.is_null()) lines_[size_t(LedgerLine::past_forces)].include(force.account.total());
   force = {};

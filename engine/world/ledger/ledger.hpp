@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// A sum that keeps what rounding takes from it (Neumaier 1974).
+/// A sum compensated for rounding errors (Neumaier 1974).
 class CompensatedSum {
  public:
   void add(double x) {
@@ -33,34 +33,35 @@ class CompensatedSum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// What changes the energy and the momenta of a world, forces apart, which have a line each.
+/// Causes that change the energy and the momenta of a world, except forces, which have a line each.
 enum class LedgerLine : uint8_t {
   gravity,        ///< uniform gravity
-  restitution,    ///< contacts along their normal, and limits of joints: what collisions take
-  friction,       ///< contacts across their normal and against turning, and along joints
+  restitution,    ///< contacts along their normal, and limits of joints: losses in collisions
+  friction,       ///< contacts across their normal and against rotation, and friction of joints
   kinematic,      ///< moving kinematic bodies and belts
-  joints,         ///< what keeps them, their springs and dampers
+  joints,         ///< constraints of joints, their springs and dampers
   motors,         ///< of joints
-  sleeping,       ///< damping and stopping of what is nearly at rest
-  projection,     ///< corrections of positions, and of velocities with them
-  offset,         ///< overlap from before that the event stepper works off
-  sph_pressure,   ///< of fluids on themselves and on bodies, and what keeps them out of walls
+  sleeping,       ///< damping and stopping of bodies that are nearly at rest
+  projection,     ///< corrections of positions, and of velocities that follow from them
+  offset,         ///< initial overlap that the event stepper removes over time
+  sph_pressure,   ///< of fluids among themselves and on bodies, and corrections at walls
   sph_viscosity,  ///< of fluids
   sph_tension,    ///< of the surfaces of fluids
-  user,           ///< the mouse and impulses from outside
+  user,           ///< the mouse, and impulses from outside
   emission,       ///< particles and bodies that emitters make
-  removal,        ///< those that reach the end of their life, or a sink
-  edits,          ///< bodies and forces made, changed and removed; settings
+  removal,        ///< particles and bodies at the end of their life or in a sink
+  edits,          ///< creation, change and removal of bodies and forces; settings
   past_forces,    ///< lines of forces that no longer exist
   integrator,     ///< what no line above explains: the error of the integrator
 };
 constexpr size_t ledger_lines = 18;
 std::string_view ledger_line_name(LedgerLine line);
 
-/// What one cause did in a tick, or altogether.
+/// The effect of one cause in a tick, or since the start.
 struct LedgerEntry {
-  double work = 0;     ///< given to the motion [J]
-  double balance = 0;  ///< change of kinetic plus potential energy [J]; 0 for what has a potential
+  double work = 0;  ///< on the motion [J]
+  /// Change of kinetic plus potential energy [J]; 0 for a force with a potential.
+  double balance = 0;
   Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the origin [kg m2/s]
 
@@ -79,7 +80,7 @@ struct LedgerState {
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
 };
 
-/// One line of the books: of the last tick, and since the beginning.
+/// One line of the ledger: the last tick, and the total since the start.
 class LedgerAccount {
  public:
   LedgerEntry tick;
@@ -98,33 +99,33 @@ struct ForceAccount {
   LedgerAccount account;
 };
 
-/// The books of a world: what changed its energy and its momenta, by cause. Forces with a potential
-/// move energy between it and the motion: their `balance` is 0. Then
+/// The ledger of a world: what changed its energy and its momenta, by cause. A force with a
+/// potential only converts potential into kinetic energy: its `balance` is 0. Then
 ///   energy now = sum of all balances since the world was empty,
-/// where the integrator's line is computed so that it holds, and of nothing else.
+/// where the integrator's line is computed as the difference that makes this hold.
 class Ledger {
  public:
-  /// What happens between ticks and is not an edit: by the user, by emission, by removal. It waits
-  /// for the next one.
+  /// Books a change between ticks that is not an edit: by the user, by emission, by removal. It is
+  /// included in the next tick.
   void book_between(LedgerLine line, const LedgerEntry& e) { waiting(line).add(e); }
-  /// Empty entries for a tick, but for what waits. What else has changed since the last close()
-  /// goes to `edits`.
+  /// Begins a tick with empty entries, except for changes booked between ticks. Any other change
+  /// since the last close() goes to `edits`.
   void open(const LedgerState& now, const std::vector<std::optional<ForceDef>>& forces,
             const HandlePool<ForceTag>& ids);
   void book(LedgerLine line, const LedgerEntry& e) { entry(line).add(e); }
   void book_force(uint32_t slot, const LedgerEntry& e) { forces_[slot].account.tick.add(e); }
-  /// Ends a tick: the integrator's line, and the totals. Without it, nothing has happened.
+  /// Ends a tick: computes the integrator's line, and adds to the totals. A tick that is not closed
+  /// leaves no trace.
   void close(const LedgerState& now);
 
   const LedgerAccount& line(LedgerLine line) const { return lines_[size_t(line)]; }
   const std::vector<ForceAccount>& forces() const { return forces_; }
-  /// Sum of the absolute work of every line in every tick [J]: what the integrator's error is
-  /// measured against.
+  /// Sum of the absolute work of every line in every tick [J], the scale of the integrator's error.
   double throughput() const { return throughput_.value(); }
-  /// |integrator's error| / throughput [-], but for what rounding takes from the energy itself
-  /// (1e-14 of it), which is all there is of a world at rest; 0 while nothing has happened.
+  /// |integrator's error| / throughput [-], less the rounding of the energy itself (1e-14 of it),
+  /// which is all the error of a world at rest; 0 while throughput is 0.
   double drift() const;
-  /// Energy and momenta at the last close(); the world began with none.
+  /// Energy and momenta at the last close(); zero for a new world.
   const LedgerState& now() const { return now_; }
 
   void save(ByteWriter& out) const;

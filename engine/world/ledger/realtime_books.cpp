@@ -59,7 +59,8 @@ RealtimeBooks::Mean RealtimeBooks::mean_of(const Part& part, uint32_t slot,
   if (in == 0 || b.torque.isZero(0)) return m;
   const Island& island = part.islands.islands[in - 1];
   if (island.contact_begin < island.contact_end || island.joint_begin < island.joint_end) return m;
-  // What nothing touches turns freely after the kick of the torque, which is all that did work.
+  // A body without contacts and joints rotates freely after the impulse of its torque, which is all
+  // that does work on its rotation.
   const Vec3 torque_body = m.axes.transpose() * b.torque;
   m.omega = start.omega + 0.5 * part.h * (m.axes * (b.inverse_inertia_body * torque_body));
   return m;
@@ -72,7 +73,8 @@ LedgerEntry RealtimeBooks::push(uint32_t slot, const Vec3& impulse, const Vec3& 
   return {work, work, impulse, m.x.cross(impulse) + moment};
 }
 
-/// Uniform gravity, and what everything after it needs of the bodies.
+/// Books uniform gravity, and prepares `mean_` and the other arrays by body for the rest of the
+/// booking.
 void RealtimeBooks::book_weights(const Part& part, Ledger& ledger, Crew& crew) {
   const size_t n = part.bodies.size();
   mean_.resize(n);
@@ -133,7 +135,7 @@ void RealtimeBooks::book_push(const Contact& c, const Push& push_of, const Vec3&
   const auto& [P, moment_a, moment_b] = push_of;
   const double lost = P.dot(b.v - a.v - belt) + moment_b.dot(b.omega) - moment_a.dot(a.omega);
   line.work += lost;
-  // Bodies that nothing moves do work by their own velocity, and belts by theirs.
+  // Fixed and kinematic bodies do work by their own velocity, and belts by theirs.
   kinematic.work += P.dot(belt);
   if (a.dynamic && b.dynamic) {
     line.angular_momentum += (b.x - a.x).cross(P) + (moment_b - moment_a);
@@ -151,7 +153,7 @@ void RealtimeBooks::book_push(const Contact& c, const Push& push_of, const Vec3&
 void RealtimeBooks::book_contact(const Contact& c, ContactLines& lines) const {
   const Mat3 &axes_a = mean_[c.key.body_a].axes, &axes_b = mean_[c.key.body_b].axes;
   Push friction;
-  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // weighted by the normal impulses
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // means weighted by the normal impulses
   double pressure = 0;
   for (const ContactPoint& p : c.used()) {
     const Vec3 ra = axes_a * p.anchor_a, rb = axes_b * p.anchor_b;
@@ -174,7 +176,7 @@ void RealtimeBooks::book_contacts(const Part& part, Ledger& ledger, Crew& crew) 
   std::array<ContactLines, chunk_count> lines_of;
   const std::span<const Contact> contacts = part.contacts.contacts();
   const std::span<const uint32_t> which = part.islands.contacts;
-  // Several contacts, and so threads, may find the same body pressed.
+  // Several contacts, possibly on different threads, may mark the same body.
   const auto press = [this](uint32_t slot) {
     std::atomic_ref touch(touch_[slot]);
     if (touch.load(std::memory_order_relaxed) != Touch::contact)
@@ -222,7 +224,7 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
       e.add(push(joint.a, -P, moment_a));
       work += moment_a.dot(a.omega) - P.dot(a.v);
     }
-    // As of contacts: the rest is what bodies that nothing moves do by their own velocity.
+    // As for contacts: the rest is work of fixed and kinematic bodies by their own velocity.
     kinematic.work += e.work - work;
     e.work = e.balance = work;
     line.add(e);
@@ -240,14 +242,14 @@ void RealtimeBooks::book_joints(const Part& part, Ledger& ledger) {
     line.work -= work;
     line.balance -= work;
   }
-  // Springs and armatures keep what they took.
+  // Energy stored in springs and armatures is not lost.
   line.balance += joints.energy - joint_energy_;
   kinematic.balance = kinematic.work;
   ledger.book(LedgerLine::joints, line);
   ledger.book(LedgerLine::kinematic, kinematic);
 }
 
-/// What positions moved beyond the mean velocity, where contacts or joints held a body.
+/// Books displacements beyond the mean velocity, where contacts or joints held a body.
 void RealtimeBooks::book_shifts(Ledger& ledger, Crew& crew) const {
   std::array<LedgerEntry, chunk_count> projections, draws;
   for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {

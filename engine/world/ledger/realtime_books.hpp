@@ -14,28 +14,27 @@
 
 namespace tumble {
 
-/// Books on the line of a force, or the user's for the mouse.
+/// Books an entry on the line of a force, or on the user's if the force is the mouse.
 void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slot,
                 const LedgerEntry& e);
 
-/// Books one tick of the realtime stepper. Over a part of a tick every force and impulse J does the
-/// work J (v- + v+)/2 with the velocities of its beginning and its end, which add up to the change
-/// of the kinetic energy; contacts in the lever arms of its beginning. What the positions of
-/// pressed contacts move beyond the mean velocity is a correction, and its work against the
-/// potentials is booked under `projection`; that of jointed bodies that nothing presses under
-/// `joints`.
+/// Books one tick of the realtime stepper. Over a part of a tick every force or impulse J does the
+/// work J (v- + v+)/2, with the velocities at the start and the end of the part, so that the sum is
+/// the change of the kinetic energy; contacts have the lever arms of the start. Displacements
+/// beyond the mean velocity are corrections: their work against the potentials is booked under
+/// `projection` for bodies pressed by contacts, under `joints` for bodies that only joints hold.
 class RealtimeBooks {
  public:
-  std::vector<ForceShare> shares;  ///< of the tick, by force slot; behind them that of fluids
-  /// By index, and what the solver had them do in the part: joints are set before begin_part(),
-  /// pushes and energy before end_part() too.
+  std::vector<ForceShare> shares;  ///< of the tick, by force slot; that of fluids follows them
+  /// The joints by slot, with their impulses in the part. `joints` and `energy` are set before
+  /// begin_part(), `pushes` and the new `energy` before end_part().
   struct Joints {
     std::span<const Joint> joints;
     std::span<const JointPush> pushes;
     double energy = 0;  ///< of springs, compliant limits and armatures now [J]
   } joints;
 
-  /// What a part of a tick is booked from.
+  /// What the books of a part of a tick read.
   struct Part {
     std::span<const RigidBody> bodies;
     const ContactSet& contacts;
@@ -45,17 +44,17 @@ class RealtimeBooks {
     double h = 0;  ///< [s]
   };
 
-  /// Before the velocities of a part change, which only those of the `involved` bodies may until
-  /// the next part begins. Sums are those of fixed chunks in their order, however many threads the
-  /// crew has.
+  /// Before the velocities of a part change; until the next part begins only the `involved` bodies
+  /// may change. Sums are over fixed chunks in their order, so that they do not depend on the
+  /// number of threads of the crew.
   void begin_part(std::span<const RigidBody> bodies, std::span<const uint32_t> involved,
                   Crew& crew);
   /// After the solver.
   void end_part(const Part& part, Ledger& ledger, Crew& crew);
-  /// After a stage that only corrects what the solver did, or stops bodies; everything that it
-  /// changed since end_part, or the last call, is booked under the line.
+  /// After a stage that corrects the solver's result or stops bodies: all changes since end_part(),
+  /// or since the last call, are booked on this line.
   void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger, Crew& crew);
-  /// Before particles are integrated; those that are blocks are bodies.
+  /// Before particles are integrated; particles that are blocks are booked as bodies.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
                  const ParticleBlocks& blocks, Ledger& ledger) const;
@@ -68,8 +67,8 @@ class RealtimeBooks {
     Pose pose;
     Vec3 v, omega;
   };
-  /// A body as it stands for a part of a tick. Contacts ask for all of it and nothing else: bodies
-  /// are large.
+  /// State of a body for a part of a tick: all that the booking of contacts reads, in one place,
+  /// since a RigidBody is large.
   struct Mean {
     Vec3 x, v, omega;
     Mat3 axes;  ///< orientation at the start
@@ -77,10 +76,10 @@ class RealtimeBooks {
     bool dynamic = false;
     bool moved = false;  ///< solved in this part
   };
-  /// What held a body in the part.
+  /// What held a body in the part, for the booking of its displacement.
   enum class Touch : uint8_t { nothing, contact, joint_only };
-  /// What a cause did to two bodies: an impulse on B, minus it on A, and its moments about either
-  /// centre (both with the sign of the impulse on B).
+  /// Effect of a cause on two bodies: an impulse on B, its reverse on A, and its moments about the
+  /// two centres, both with the sign of the impulse on B.
   struct Push {
     Vec3 impulse = Vec3::Zero(), moment_a = Vec3::Zero(), moment_b = Vec3::Zero();
   };
@@ -96,17 +95,18 @@ class RealtimeBooks {
                  LedgerEntry& kinematic) const;
   void book_joints(const Part& part, Ledger& ledger);
   void book_shifts(Ledger& ledger, Crew& crew) const;
-  /// An impulse with a moment about the centre, on a body.
+  /// Entry of an impulse on a body, with its moment about the centre.
   LedgerEntry push(uint32_t slot, const Vec3& impulse, const Vec3& moment) const;
 
   std::vector<uint32_t> involved_;
-  // By slot, of the involved.
-  std::vector<Motion> last_;  ///< when the part began; then what was booked last
+  // The following are by body slot, and valid for the involved bodies.
+  std::vector<Motion> last_;  ///< at the start of the part; then at the last booking
   std::vector<Mean> mean_;
-  std::vector<Vec3> shifted_;  ///< what positions moved in the part beyond the mean velocity [m]
-  std::vector<Vec3> held_;     ///< forces that have a potential [N]
+  std::vector<Vec3> shifted_;  ///< displacements in the part beyond those of the mean velocity [m]
+  std::vector<Vec3> held_;     ///< conservative forces [N]
   std::vector<Touch> touch_;
-  double joint_energy_ = 0;  ///< of springs, compliant limits and armatures, when it began [J]
+  /// Of springs, compliant limits and armatures at the start of the part [J].
+  double joint_energy_ = 0;
 };
 
 }  // namespace tumble

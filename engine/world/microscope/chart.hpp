@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// Curves over two axes, drawn into a diagram: what is in [x0, x1] x [y0, y1] fills it up to room
-/// for the labels of the axes.
+/// Curves over two axes, drawn into a diagram: the range [x0, x1] x [y0, y1] fills it, less a
+/// margin for the labels of the axes.
 class Chart {
  public:
   Chart(Diagram& out, double x0, double x1, double y0, double y1, std::string x_label,
@@ -14,7 +14,7 @@ class Chart {
   void curve(const std::vector<Vec2>& points, Ink ink, float width = 2);
   void line(const Vec2& a, const Vec2& b, Ink ink, float width = 1.5f);
   void point(const Vec2& p, Ink ink, float size = 7);
-  /// A band over all heights from x = a to b.
+  /// A band over the full height, from x = a to x = b.
   void band(double a, double b, Ink ink, float opacity);
 
  private:

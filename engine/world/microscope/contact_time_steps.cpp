@@ -45,7 +45,7 @@ class AdvanceRecorder {
   std::vector<Vec2> curve_;  ///< (time, distance), for the plot only
 };
 
-/// The same routine that time_of_contact() takes for convex pairs.
+/// The same search as in time_of_contact() for convex pairs.
 TimeOfContact AdvanceRecorder::search(double t0, double t1, ContactTimeTrace* trace) const {
   const Shape &a = *slide_.body[0].shape, &b = *slide_.body[1].shape;
   const auto core = [&](size_t i) {
@@ -65,7 +65,7 @@ TimeOfContact AdvanceRecorder::search(double t0, double t1, ContactTimeTrace* tr
   return r;
 }
 
-/// The distance at one moment, for the plot; the search measures for itself.
+/// The distance at one time, for the plot only; the search makes its own queries.
 double AdvanceRecorder::distance_at(double t) const {
   const Pose pose[2] = {motion(0).pose(t), motion(1).pose(t)};
   const size_t plane = is_plane(*slide_.body[0].shape) ? 0 : 1;
@@ -82,7 +82,7 @@ double AdvanceRecorder::distance_at(double t) const {
   return g.distance - a.rounding() - b.rounding();
 }
 
-/// The distance over the whole span, which the search does not know.
+/// The distance over the whole span, which the search does not compute.
 void AdvanceRecorder::measure_curve() {
   for (int i = 0; i <= curve_points; ++i) {
     const double t = end() * i / curve_points;
@@ -90,7 +90,7 @@ void AdvanceRecorder::measure_curve() {
   }
 }
 
-/// Where the bodies go, faintly: they know, the search does not.
+/// Draws the paths of the bodies faintly.
 void AdvanceRecorder::draw_path(Sketch& out) const {
   for (size_t i = 0; i < 2; ++i) {
     if (is_plane(*slide_.body[i].shape)) continue;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double percent = 100;
 
-/// The first particles that are asked for, of which `good` holds.
+/// The first particle system that the setup asks for and that satisfies `good`.
 template <class Good>
 const ParticleFrame* first_of(const Frame& frame, const MicroscopeSetup& setup, const Good& good) {
   for (const auto& p : frame.particles)
@@ -26,7 +26,7 @@ const ParticleFrame* first_of(const Frame& frame, const MicroscopeSetup& setup, 
   return nullptr;
 }
 
-/// The error that all but a few particles are below [%].
+/// The error that all but a few particles are below [%]: the upper end of the colours.
 double colour_top(const FluidTrace::Solve& solve) {
   std::vector<float> wrong = solve.iterations.front().wrong;
   if (wrong.empty()) return 1;
@@ -38,7 +38,7 @@ double colour_top(const FluidTrace::Solve& solve) {
 
 class DensityRecorder {
  public:
-  /// Takes the numbers of the particles out of the trace, which may be hundreds of megabytes.
+  /// Moves the numbers of the particles out of the trace, which may have hundreds of megabytes.
   DensityRecorder(const ParticleFrame& fluid, FluidTrace& trace) : fluid_(fluid), trace_(trace) {}
 
   MicroscopeRecording run() {
@@ -59,7 +59,8 @@ class DensityRecorder {
   MicroscopeRecording out_;
 };
 
-/// Errors on a scale by powers of ten: first of the velocities, then of the places.
+/// Plots the errors on a logarithmic scale: first those of the solve for velocities, then those of
+/// the solve for positions.
 void DensityRecorder::draw_plot(bool shift, size_t until, Diagram& out) const {
   out.title = "mean error, log scale";
   const double enough = std::min(trace_.pressure.enough, trace_.shift.enough);
@@ -153,7 +154,7 @@ void DensityRecorder::add_solve(FluidTrace::Solve& solve, bool shift) {
 }  // namespace
 
 std::string refuse_density(const Frame& frame, const MicroscopeSetup& setup) {
-  // Of what kind they are only the world knows.
+  // A frame does not tell whether they are a fluid; the world does.
   const auto any = [](const ParticleFrame&) { return true; };
   return first_of(frame, setup, any) ? "" : "there are no particles here";
 }

@@ -17,16 +17,16 @@
 namespace tumble {
 namespace {
 
-/// Of a body in a step: more boxes hide each other.
+/// Volumes of a body drawn in a step: more would hide each other.
 constexpr size_t most_volumes = 150;
-/// Triangles of each body that are drawn of those found: more would be one green skin.
+/// Triangles drawn of each body among those found: more would merge into one surface.
 constexpr size_t most_triangles = 5000;
 
-/// Tests of volumes, and pairs of triangles found, at which a descent is broken off: it is made
-/// anew with each picture in which a body has moved, and takes some .1 s then.
+/// Limit of the tests of volumes and of the pairs of triangles found, at which a descent stops: it
+/// is repeated for each picture in which a body has moved, and takes about 0.1 s at this limit.
 constexpr size_t most_tests = 300'000;
 
-/// Lines of a volume as those of a sketch.
+/// Draws the lines of a volume into a sketch.
 class VolumeLines final : public DebugDraw {
  public:
   VolumeLines(Sketch& out, Ink ink, float width) : out_(out), ink_(ink), width_(width) {}
@@ -40,7 +40,7 @@ class VolumeLines final : public DebugDraw {
   float width_;
 };
 
-/// All nodes of a hierarchy, by the number that DescentTest knows them by.
+/// All nodes of a hierarchy, by their number in DescentTest.
 std::vector<NodeBound> nodes_of(const Hierarchy& hierarchy) {
   std::vector<NodeBound> out;
   hierarchy.visit_nodes([&out](const NodeBound& bound) {
@@ -50,10 +50,10 @@ std::vector<NodeBound> nodes_of(const Hierarchy& hierarchy) {
   return out;
 }
 
-/// What became of a node in the tests of a level, the strongest last.
+/// What became of a node in the tests of a level; of several tests the greatest value counts.
 enum class Fate : uint8_t { pruned, kept, leaf };
 
-/// The tree of a mesh, made once for the slides that follow each other.
+/// The tree of a mesh, built once for consecutive slides.
 template <class Kind>
 std::shared_ptr<const BoundingTree<Kind>> tree_of(const std::shared_ptr<const TriangleMesh>& mesh,
                                                   MicroscopeMemory* memory) {
@@ -63,7 +63,7 @@ std::shared_ptr<const BoundingTree<Kind>> tree_of(const std::shared_ptr<const Tr
       if (k.of == mesh && k.kind == Kind::name) return std::static_pointer_cast<const Tree>(k.tree);
   auto made = std::make_shared<const Tree>(mesh);
   if (memory) {
-    constexpr size_t most = 2;  // those of the two bodies
+    constexpr size_t most = 2;  // one for each of the two bodies
     if (memory->trees.size() == most) memory->trees.erase(memory->trees.begin());
     memory->trees.push_back({mesh, Kind::name, made});
   }
@@ -105,7 +105,7 @@ class DescentRecorder {
   MicroscopeRecording out_;
 };
 
-/// By level: that of both nodes together, which grows by one with each way down.
+/// Sorts the tests by the sum of both nodes' levels, which grows by one with each step down.
 void DescentRecorder::sort_tests() {
   for (const DescentTest& t : way_.tests) {
     const auto level = size_t(nodes_[0][t.a].level + nodes_[1][t.b].level);
@@ -122,7 +122,7 @@ void DescentRecorder::begin(MicroscopeStep& step) const {
 size_t DescentRecorder::draw_nodes(size_t body, const std::map<uint32_t, Fate>& fates,
                                    Sketch& out) const {
   size_t drawn = 0;
-  // What goes on first, so that it is not what is left out.
+  // Nodes that are descended into first, so that the limit leaves out pruned ones.
   for (const Fate wanted : {Fate::leaf, Fate::kept, Fate::pruned})
     for (const auto& [node, fate] : fates) {
       if (fate != wanted || drawn == most_volumes) continue;
@@ -137,7 +137,7 @@ size_t DescentRecorder::draw_nodes(size_t body, const std::map<uint32_t, Fate>& 
   return fates.size() - drawn;
 }
 
-/// Tests by level, and of them those that went on.
+/// Plots the number of tests by level, and of those that were not pruned.
 void DescentRecorder::draw_plot(size_t until, Diagram& out) const {
   out.title = "tests (green: went on)";
   size_t most = 1;

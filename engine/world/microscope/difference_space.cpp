@@ -8,16 +8,16 @@
 namespace tumble {
 namespace {
 
-/// Differences of at most so many vertices are drawn exactly.
+/// Differences of at most so many vertices are drawn exactly,
 constexpr size_t most_points = 6000;
-/// Others through so many supports.
+/// others through support points in so many directions.
 constexpr int directions = 480;
 
 const ConvexCore& core_of(const Specimen& s) {
   return *s.shape->convex();
 }
 
-/// Distinct vertices of a core; empty for curved ones.
+/// Distinct vertices of a core; empty if it is curved.
 std::vector<Vec3> core_vertices(const ConvexCore& core) {
   const CoreView& view = core.view();
   std::vector<Vec3> out;
@@ -65,7 +65,7 @@ void DifferenceSpace::make_outline() {
       points.push_back(beside(support(spread_direction(k, directions)).w.vec()));
   }
   const auto hull = convex_hull(points);
-  if (!hull) return;  // two points or segments: there is nothing to outline
+  if (!hull) return;  // two points or segments have no volume to outline
   const ConvexPolyhedron& polyhedron = hull->polyhedron;
   Sketch::Surface surface{{}, Ink::faint, 0.16f};
   const TriangleMesh mesh = to_mesh(polyhedron);

@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// The pair of a slide as GJK sees it, and the way from its frames to the world: the bodies where
-/// they are, the difference A - B beside them.
+/// The pair of a slide as GJK sees it, and the transforms from its frames to the world. The bodies
+/// are drawn in place, the Minkowski difference A - B beside them.
 class DifferenceSpace {
  public:
   explicit DifferenceSpace(const MicroscopeSlide& slide);
@@ -13,18 +13,18 @@ class DifferenceSpace {
   const PlacedCore& a() const { return A_; }
   const PlacedCore& b() const { return B_; }
   double rounding() const { return A_.core->rounding() + B_.core->rounding(); }
-  /// The point of the difference furthest along a direction of A's own frame.
+  /// Support point of the difference in a direction given in A's frame.
   DifferencePoint support(const Vec3& direction) const;
 
   Vec3 on_body(const Vec3& p) const { return origin_ + A_.R * p; }
   Vec3 beside(const Vec3& w) const { return beside_ + A_.R * w; }
-  /// From the frame of the query, where PlacedCore puts things.
+  /// World position of a point in the frame of the query, in which PlacedCore places shapes.
   Vec3 from_query(const Vec3& p) const { return origin_ + p; }
   Vec3 direction(const Vec3& d) const { return A_.R * d; }
-  /// A length to draw planes and arrows by [m].
+  /// The length scale for drawing planes and arrows [m].
   double size() const { return size_; }
 
-  /// Bodies in wires, the difference with its origin, names.
+  /// Draws the bodies as wire frames, and the difference with its origin and labels.
   void draw(Sketch& out) const;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// Appends the steps of EPA from GJK's last simplex on. Returns minus the depth, roundings included
-/// [m].
+/// Appends the steps of EPA, which starts from GJK's last simplex. Returns minus the penetration
+/// depth, radii of rounding included [m].
 double record_epa(const DifferenceSpace& space, const Simplex& start,
                   std::vector<MicroscopeStep>& steps);
 

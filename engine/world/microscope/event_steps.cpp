@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// Ticks that are looked ahead at most, and curves in the plot.
+/// Limits of the ticks that are searched, and of the curves in the plot.
 constexpr uint64_t most_ticks = 600;
 constexpr size_t most_curves = 24;
 
@@ -83,14 +83,15 @@ class SearchRecorder {
   const MicroscopeSetup& setup_;
   std::shared_ptr<const Frame> frame_;
   TickWatch watch_;
-  EventSearch search_;     ///< that is shown
-  size_t searches_ = 0;    ///< before it, in all ticks
-  double begin_ = 0;       ///< of its step, from now on [s]
-  std::vector<Vec3> way_;  ///< of the body, by tick
+  EventSearch search_;   ///< the search that is shown
+  size_t searches_ = 0;  ///< number of searches before it, in all ticks
+  double begin_ = 0;     ///< start of its step, from now on [s]
+  /// Path of the body, by tick.
+  std::vector<Vec3> way_;
   MicroscopeRecording out_;
 };
 
-/// Steps until a search finds something; else the last search of all is shown.
+/// Steps until a search finds an event; if none does, the last search is shown.
 Status SearchRecorder::look_ahead(World& copy) {
   const double tick = copy.settings().tick.tick();
   const auto ticks = uint64_t(std::clamp(std::ceil(setup_.span / tick), 1.0, double(most_ticks)));
@@ -103,7 +104,7 @@ Status SearchRecorder::look_ahead(World& copy) {
     if (auto stepped = copy.step(); !stepped) return stepped.error();
     auto& all = watch_.searches.searches;
     for (size_t i = 0; i < all.size(); ++i) {
-      // A step that is tried again from the same time on ends where the last try says.
+      // A step that is tried again from the same time ends at the event of the last try.
       while (all[i].first != EventSearch::none && i + 1 < all.size() &&
              all[i + 1].begin == all[i].begin && all[i + 1].first != EventSearch::none)
         ++i;
@@ -158,7 +159,7 @@ void SearchRecorder::draw(const Pose& pose, MicroscopeStep& step) const {
   }
 }
 
-/// Every value over the greatest that it has, so that all signs are to be seen.
+/// Plots every function relative to its greatest absolute value, so that all signs are visible.
 void SearchRecorder::draw_plot(double until, double low, double high, Diagram& out) const {
   out.title = "values over the step";
   Chart chart(out, 0, search_.step, -1, 1, "t", "");
@@ -210,7 +211,7 @@ void SearchRecorder::add_start() {
       begin_, searches_, gaps, others);
 }
 
-/// One step for each time that is looked at.
+/// Adds a step for each time at which the functions were evaluated.
 void SearchRecorder::add_looks() {
   const auto& looks = search_.looks;
   double last = 0;

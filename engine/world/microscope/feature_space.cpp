@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// The hull of the corners of a feature.
+/// The convex hull of the corners of a feature.
 class FeatureCore final : public ConvexCore {
  public:
   explicit FeatureCore(std::vector<Vec3> corners)
@@ -60,7 +60,7 @@ std::vector<Vec3> FeatureSpace::corners(const PolyhedronFeature& f, size_t body)
     for (const uint32_t v : model.edges[f.index].vertices)
       out.push_back(point(body, model.vertices[v]));
   } else {
-    // Sides run counter-clockwise: each begins where the last one ended.
+    // Sides run counter-clockwise: each begins at the end of the previous one.
     const auto sides = model.sides_of(model.faces[f.index]);
     for (size_t i = 0; i < sides.size(); ++i) {
       const auto& ends = model.edges[sides[i].edge].vertices;
@@ -106,14 +106,14 @@ void FeatureSpace::draw_features(Sketch& out, const ClosestFeatures& at) const {
   out.point(n.b, Ink::answer, 10);
 }
 
-/// A vertex-edge plane: across the edge, through its end.
+/// A vertex-edge plane: normal to the edge, through its end.
 void FeatureSpace::draw_across(Sketch& out, uint32_t e, uint32_t v, size_t body) const {
   const VoronoiPolyhedron& model = *placed_[body].model;
   const Vec3 along = placed_[body].R * model.edges[e].direction;
   add_plane(out, point(body, model.vertices[v]), along, 0.8 * model.radius, Ink::test);
 }
 
-/// A face-edge plane: upright on the face, through the edge.
+/// A face-edge plane: normal to the face, through the edge.
 void FeatureSpace::draw_upright(Sketch& out, uint32_t e, uint32_t f, size_t body) const {
   const VoronoiPolyhedron& model = *placed_[body].model;
   const std::vector<Vec3> ends = corners({FeatureKind::edge, e}, body);

@@ -6,19 +6,19 @@
 
 namespace tumble {
 
-/// The two polyhedra of a slide and their features in world axes.
+/// The two polyhedra of a slide, and their features in world coordinates.
 class FeatureSpace {
  public:
   explicit FeatureSpace(const MicroscopeSlide& slide);
 
-  /// In the frame of the query, whose origin is A's.
+  /// In the frame of the query, which has its origin at that of A.
   const PlacedPolyhedron& a() const { return placed_[0]; }
   const PlacedPolyhedron& b() const { return placed_[1]; }
   Vec3 from_query(const Vec3& p) const { return origin_ + p; }
 
-  /// Corners of a feature in order: one, two, or those of the face.
+  /// Corners of a feature in order: one of a vertex, two of an edge, all of a face.
   std::vector<Vec3> corners(const PolyhedronFeature& feature, size_t body) const;
-  /// Nearest points of two features, wherever the rest of the bodies is.
+  /// Nearest points of two features, regardless of the rest of the bodies.
   struct Nearest {
     Vec3 a, b;
     double distance;  ///< [m]
@@ -27,7 +27,7 @@ class FeatureSpace {
 
   void draw(Sketch& out) const;
   void draw_features(Sketch& out, const ClosestFeatures& at) const;
-  /// The plane that a walk crosses when a feature of `body` gives way to another.
+  /// The Voronoi plane that the walk crosses when a feature of `body` is replaced by a neighbour.
   void draw_crossed_plane(Sketch& out, const PolyhedronFeature& from, const PolyhedronFeature& to,
                           size_t body) const;
 

@@ -62,7 +62,7 @@ MicroscopeStep& GjkRecorder::begin(std::string title, const GjkResult& g) {
   return step;
 }
 
-/// In the difference, and as the corners of A and B that make it.
+/// Draws a simplex in the difference, and the support points of A and B that it is made of.
 void GjkRecorder::draw_simplex(Sketch& out, const Simplex& s) const {
   const auto at = [&](int i) { return s.points[size_t(i)]; };
   for (int i = 0; i < s.count; ++i) {
@@ -95,7 +95,7 @@ void GjkRecorder::draw_nearest(Sketch& out, const Simplex& s) const {
   out.point(b, Ink::answer, 9);
 }
 
-/// How the two bounds on the distance meet.
+/// Plots how the two bounds on the distance converge.
 void GjkRecorder::draw_bounds(Diagram& out) const {
   out.title = "bounds on the distance";
   if (upper_.empty()) return;
@@ -121,7 +121,7 @@ void GjkRecorder::start(const GjkResult& g) {
       vertex_text(g.simplex.points[0].vertex_b, 'B'));
 }
 
-/// The support in the direction from v to the origin, with its plane.
+/// Draws the support point in the direction from v to the origin, with its supporting plane.
 DifferencePoint GjkRecorder::draw_look(Sketch& out, const Vec3& v) const {
   const DifferencePoint p = space_.support(-v);
   const Vec3 from = space_.beside(v), w = space_.beside(p.w.vec());

@@ -3,12 +3,13 @@
 
 namespace tumble {
 
-/// "" when both shapes are convex.
+/// Why the two shapes are refused; "" when both are convex.
 std::string refuse_gjk(const Shape& a, const Shape& b);
 
-/// GJK as it closes in on the origin of the difference A - B, two steps an iteration (the support
-/// is looked for; the simplex takes it in), and where the bodies overlap EPA growing its polytope.
-/// Each step is gjk() stopped after so many iterations, so nothing is done twice in code.
+/// GJK's iterations towards the origin in the difference A - B, two steps each (the support point
+/// is computed; the simplex is updated with it), and where the bodies overlap the growth of EPA's
+/// polytope. Each step calls gjk() with a limit on its iterations, so that no algorithm is written
+/// twice.
 MicroscopeRecording record_gjk(const MicroscopeSlide& slide);
 
 }  // namespace tumble

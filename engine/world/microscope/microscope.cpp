@@ -38,7 +38,7 @@ Specimen specimen(const Frame& frame, const std::vector<Pose>& poses, BodyId id,
   return s;
 }
 
-/// To the right of both bodies, where a difference of the two has room.
+/// A place to the right of both bodies, where there is room for their difference.
 Vec3 place_beside(const std::array<Specimen, 2>& body) {
   const Aabb a = body[0].shape->bounds(body[0].pose()), b = body[1].shape->bounds(body[1].pose());
   if (!a.min.allFinite() || !a.max.allFinite() || !b.min.allFinite() || !b.max.allFinite())

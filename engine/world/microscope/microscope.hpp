@@ -17,34 +17,35 @@ namespace tumble {
 
 class World;
 
-/// Which algorithm is to be watched on which bodies, and how.
+/// Which algorithm is shown on which bodies, and how.
 struct MicroscopeSetup {
   std::string algorithm = "gjk";  ///< name in all_microscopes()
   BodyId a, b;                    ///< null where the algorithm needs none
-  ParticleSystemId particles;     ///< null: the first that the algorithm takes
+  ParticleSystemId particles;     ///< null: the first system that the algorithm accepts
   int step = 0;                   ///< the step that is shown at time 0
   double steps_per_second = 0;    ///< of simulated time
-  double span = 1;                ///< how far a motion is looked ahead [s]
-  double tolerance = 1e-3;        ///< of a contact [m]
-  std::optional<Vec3> beside;     ///< where abstract spaces have their origin [m]; else chosen
-  /// Instead of the bodies' own, A's and B's [m/s], [rad/s].
+  double span = 1;                ///< how far ahead motions are computed [s]
+  double tolerance = 1e-3;        ///< distance that counts as contact [m]
+  /// World position of the origin of abstract spaces [m]; else chosen.
+  std::optional<Vec3> beside;
+  /// Velocities of A and B to use instead of their own [m/s], [rad/s].
   std::array<std::optional<Vec3>, 2> velocity, angular_velocity;
 
-  /// The step that is due at a time; may be beyond the last.
+  /// The step that is shown at a time; may be beyond the last.
   int step_at(double time) const;
 };
 
-/// One of the two bodies as it is looked at.
+/// One of the two bodies, as the algorithm is given it.
 struct Specimen {
   std::string name;
   std::shared_ptr<const Shape> shape;
-  Motion motion;  ///< of the shape's frame from now, t = 0, to the span
+  Motion motion;  ///< of the shape's frame from now, t = 0, to the end of the span
 
   Pose pose() const { return motion.pose(0); }
 };
 
-/// What recorders keep from one slide to the next: what is dear to make and depends on shapes
-/// alone. Of one thread.
+/// What recorders keep from one slide to the next: data that is expensive to build and depends on
+/// the shapes alone. For use by one thread.
 struct MicroscopeMemory {
   struct Kept {
     std::shared_ptr<const TriangleMesh> of;
@@ -54,18 +55,17 @@ struct MicroscopeMemory {
   std::vector<Kept> trees;  ///< the newest last
 };
 
-/// What lies under the microscope: all that an algorithm's recorder needs.
+/// All that a recorder of a pair is given.
 struct MicroscopeSlide {
   std::array<Specimen, 2> body;
   double tolerance = 1e-3;     ///< [m]
-  Vec3 beside = Vec3::Zero();  ///< where abstract spaces are drawn: the place of their origin [m]
-  std::shared_ptr<MicroscopeMemory> memory;  ///< no part of what is looked at; null: none is kept
+  Vec3 beside = Vec3::Zero();  ///< world position of the origin of abstract spaces [m]
+  std::shared_ptr<MicroscopeMemory> memory;  ///< not compared by ==; null: nothing is kept
 
   bool operator==(const MicroscopeSlide& other) const;
 };
 
-/// Particles of a system in colours of a step: from the darkest at `low` to the brightest at
-/// `high`.
+/// Colours of the particles of a system in a step: from darkest at `low` to brightest at `high`.
 struct ParticleColours {
   ParticleSystemId system;
   std::string title, unit;
@@ -75,8 +75,9 @@ struct ParticleColours {
 
 /// One step of an algorithm.
 struct MicroscopeStep {
-  std::string title;    ///< a few words: "V-E: vertex 3 of A, edge 5 of B"
-  std::string caption;  ///< what happens and why, for people who see it for the first time
+  std::string title;  ///< a few words: "V-E: vertex 3 of A, edge 5 of B"
+  /// What happens and why, for people who see the algorithm for the first time.
+  std::string caption;
   struct Number {
     std::string label, value;
   };
@@ -86,14 +87,14 @@ struct MicroscopeStep {
   std::optional<ParticleColours> particles;
 };
 
-/// An algorithm's way to its answer.
+/// All steps of an algorithm up to its answer.
 struct MicroscopeRecording {
   std::string title;                  ///< of the algorithm: "GJK"
   std::vector<MicroscopeStep> steps;  ///< never empty
-  /// Of the whole: a distance, minus a depth [m], or a time [s]; infinite for "never".
+  /// The result: a distance or minus a depth [m], or a time [s]; infinite for "never".
   double answer = 0;
-  std::vector<BodyId> see_through;  ///< bodies that hide what is drawn
-  double size = 0;                  ///< of what is looked at [m]; 0: that of the two bodies
+  std::vector<BodyId> see_through;  ///< bodies to be drawn transparent, as they hide what is drawn
+  double size = 0;                  ///< extent of what is shown [m]; 0: that of the two bodies
 };
 
 /// An algorithm that works on the shapes of two bodies.
@@ -103,15 +104,15 @@ struct PairMicroscope {
   MicroscopeRecording (*record)(const MicroscopeSlide& slide);
 };
 
-/// An algorithm that works on more than a frame shows: the world is asked, which goes on as if
-/// nobody had.
+/// An algorithm that needs more than a frame contains: it is recorded from the world itself, whose
+/// state is not changed.
 struct WorldMicroscope {
-  /// Why there is nothing to ask for, "" when there is.
+  /// Why there is nothing to record, "" when there is.
   std::string (*refusal)(const Frame& frame, const MicroscopeSetup& setup);
   Result<MicroscopeRecording> (*record)(const World& world, const MicroscopeSetup& setup);
 };
 
-/// One algorithm that can be watched. One more: its recorder in two files, a line in
+/// An algorithm that can be watched. To add one: its recorder in two files, a line in
 /// `CMakeLists.txt` and one in all_microscopes(); scene files, keys, panel and pictures follow.
 struct MicroscopeEntry {
   std::string_view name;
@@ -120,7 +121,7 @@ struct MicroscopeEntry {
 
   const PairMicroscope* of_pair() const { return std::get_if<PairMicroscope>(&way); }
   const WorldMicroscope* of_world() const { return std::get_if<WorldMicroscope>(&way); }
-  /// Of a pair's algorithm alone.
+  /// Only for an algorithm on a pair.
   MicroscopeRecording record(const MicroscopeSlide& slide) const {
     return of_pair()->record(slide);
   }
@@ -129,21 +130,21 @@ const std::vector<MicroscopeEntry>& all_microscopes();
 /// Null for an unknown name.
 const MicroscopeEntry* find_microscope(std::string_view name);
 
-/// Why this setup cannot be looked at in this frame, "" when it can: unknown algorithm, a body that
-/// is gone or has several shapes, a shape that the algorithm does not take.
+/// Why this setup cannot be shown in this frame, "" when it can: unknown algorithm, a body that
+/// does not exist or has several shapes, a shape that the algorithm does not accept.
 std::string microscope_refusal(const Frame& frame, const MicroscopeSetup& setup);
 
-/// What a world said when it was asked.
+/// The answer of a world to a request for a recording.
 struct MicroscopeAnswer {
   std::string algorithm;
   uint64_t tick = 0;
   std::optional<MicroscopeRecording> recording;
   std::string refusal;  ///< why there is none
 };
-/// Null where the algorithm needs nothing but a frame.
+/// Null if the algorithm needs no more than a frame.
 std::shared_ptr<const MicroscopeAnswer> ask_world(const World& world, const MicroscopeSetup& setup);
 
-/// The slide of a setup of two bodies that is not refused; `poses` by body slot.
+/// The slide of a setup of two bodies that is not refused; `poses` is by body slot.
 MicroscopeSlide make_slide(const Frame& frame, const std::vector<Pose>& poses,
                            const MicroscopeSetup& setup);
 

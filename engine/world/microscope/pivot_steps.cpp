@@ -19,9 +19,9 @@ namespace {
 using lcp::PivotSet;
 using lcp::PivotStep;
 
-/// As many contacts have a number in the picture.
+/// At most so many contacts are numbered in the picture.
 constexpr size_t most_labels = 24;
-/// More are not watched: the world waits meanwhile.
+/// Limit of recorded pivots: the world waits meanwhile.
 constexpr int most_pivots = 3000;
 
 bool turns_or_slides(const lcp::LcpProblem& problem, Eigen::Index i) {
@@ -30,7 +30,7 @@ bool turns_or_slides(const lcp::LcpProblem& problem, Eigen::Index i) {
   });
 }
 
-/// Normal forces and rows with bounds, without anything lateral and without torques.
+/// Indices of normal forces and of bounded rows, without friction forces and torques.
 std::vector<Eigen::Index> without_friction(const ContactForceProblem& problem) {
   std::vector<char> normal(size_t(problem.lcp.size()), 0);
   for (const auto& p : problem.points) normal[size_t(p.first)] = 1;
@@ -84,7 +84,7 @@ class PivotRecorder {
   MicroscopeRecording out_;
 };
 
-/// On B, world axes [N].
+/// Force at a contact point on B, world axes [N].
 Vec3 PivotRecorder::force_at(size_t point, const PivotStep& at) const {
   const ContactForceProblem::Point& p = posed_.problem.points[point];
   Vec3 out = Vec3::Zero();
@@ -124,7 +124,7 @@ void PivotRecorder::draw(const PivotStep& at, Sketch& out) const {
     if (concerns(at.driven)) out.point(place.x_world, Ink::test, 20);
     if (concerns(at.limiting) && !concerns(at.driven)) out.point(place.x_world, Ink::active, 20);
     out.point(place.x_world, ink, 12);
-    // On the body that forces move: B, unless that is held.
+    // Drawn on the dynamic body: B, unless that is fixed or kinematic.
     const uint32_t b = place.key.body_b;
     const bool held = b < frame_->body_slots() && frame_->info(b).type != BodyType::dynamic;
     const Vec3 force = (held ? -unit : unit) * force_at(k, at);
@@ -183,7 +183,7 @@ void PivotRecorder::begin() {
                 : "Friction is left out here.");
 }
 
-/// What the solver gave, whoever of its helpers it came from.
+/// Adds the solver's final result, by whichever of its methods it was found.
 void PivotRecorder::finish() {
   PivotStep last = trace_.steps.back();
   last.driven = last.limiting = -1;
@@ -228,7 +228,7 @@ Result<MicroscopeRecording> PivotRecorder::run() {
     step.caption = pivot_caption(at, names_, z_most_);
   }
   finish();
-  // Of all that the contacts press.
+  // The sum of all normal forces.
   for (size_t i = 0; i < names_.unknowns.size(); ++i)
     if (names_.unknowns[i].point >= 0 && !names_.unknowns[i].lateral)
       out_.answer += solution_.z[Eigen::Index(i)];

@@ -129,7 +129,8 @@ Diagram pivot_bars(const lcp::PivotStep& step, const PivotNames& names, const lc
       out.boxes.push_back(box);
     };
     if (z_most > 0) add(std::fabs(step.z[i]) / z_most, 1, ink, 1);
-    // What would go into each other is wrong; so is any acceleration where the set allows none.
+    // Marked as wrong: acceleration into a constraint, and any acceleration of an unknown whose set
+    // allows none.
     const PivotNames::Unknown& u = names.unknowns[size_t(i)];
     const PivotSet set = step.sets[size_t(i)];
     const bool wrong =

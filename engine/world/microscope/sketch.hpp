@@ -13,14 +13,14 @@ namespace tumble {
 enum class Ink : uint8_t {
   first,   ///< of body A
   second,  ///< of body B
-  active,  ///< what the algorithm holds now
+  active,  ///< what the algorithm works on now
   answer,  ///< nearest points, the best answer so far
   test,    ///< what is tested: planes, directions, candidates
   plain,   ///< axes, the origin
-  faint,   ///< what is only there to see the rest by
+  faint,   ///< context
 };
 
-/// What one step of an algorithm draws into the world. Lengths in metres, world axes.
+/// What one step of an algorithm draws in the world. Lengths in metres, world axes.
 struct Sketch {
   struct Point {
     Vec3 x;
@@ -31,7 +31,7 @@ struct Sketch {
     Vec3 a, b;
     Ink ink = Ink::active;
     float width = 2;     ///< [px]
-    bool arrow = false;  ///< drawn solid, with a tip at b
+    bool arrow = false;  ///< drawn solid, with an arrowhead at b
   };
   struct Surface {
     std::vector<std::array<Vec3, 3>> triangles;
@@ -40,10 +40,10 @@ struct Sketch {
   };
   struct Label {
     Vec3 x;
-    std::string text;  ///< letters of Latin-1
+    std::string text;  ///< Latin-1 characters only
     Ink ink = Ink::plain;
   };
-  /// One of the two bodies, at a pose of its shape.
+  /// One of the two bodies, drawn with its shape at this pose.
   struct Ghost {
     size_t body = 0;
     Pose pose;
@@ -65,13 +65,13 @@ struct Sketch {
   void label(const Vec3& x, std::string text, Ink ink) {
     labels.push_back({x, std::move(text), ink});
   }
-  /// All of another sketch.
+  /// Adds everything of another sketch.
   void add(const Sketch& other);
 };
 
-/// Corners of a plane figure, in order; drawn as a surface with an outline.
+/// Corners of a plane polygon, in order; drawn as a surface with an outline.
 void add_polygon(Sketch& out, const std::vector<Vec3>& corners, Ink ink, float opacity);
-/// A square of a plane about `centre`, across `normal` (unit).
+/// A square in the plane through `centre` with this normal (unit).
 void add_plane(Sketch& out, const Vec3& centre, const Vec3& normal, double half_width, Ink ink);
 
 /// A flat picture beside the text of a step: x from 0 to `aspect`, y from 0 to 1, upwards.
@@ -96,7 +96,8 @@ struct Diagram {
     Vec2 x;
     std::string text;
     Ink ink = Ink::plain;
-    Vec2 anchor{0.5, 0.5};  ///< part of the text's box at x: 0,0 left bottom; 1,1 right top
+    /// Fraction of the text's box that lies at x: (0, 0) bottom left; (1, 1) top right.
+    Vec2 anchor{0.5, 0.5};
   };
   std::string title;
   double aspect = 1.6;

@@ -13,7 +13,7 @@ const VoronoiPolyhedron* planes_of(const Shape& shape) {
   return shape.convex() ? shape.convex()->voronoi() : nullptr;
 }
 
-/// What the pair at the end of the walk means.
+/// What the last pair of the walk implies.
 std::string end_text(const VClipResult& r, const ClosestFeatures& last) {
   const std::string pair =
       fmt::format("{} and {}", feature_text(last[0], 0), feature_text(last[1], 1));

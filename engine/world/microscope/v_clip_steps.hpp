@@ -3,10 +3,10 @@
 
 namespace tumble {
 
-/// "" when both shapes are boxes or convex hulls with Voronoi planes.
+/// Why the two shapes are refused; "" when both are boxes or convex hulls with Voronoi planes.
 std::string refuse_v_clip(const Shape& a, const Shape& b);
 
-/// V-Clip's walk, one step a pair of features, each with the test that names the next pair.
+/// V-Clip's walk, one step for each pair of features, with the test that determines the next pair.
 MicroscopeRecording record_v_clip(const MicroscopeSlide& slide);
 
 }  // namespace tumble

@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 /// One transition of the diagram: the feature that changes, what it becomes, and the feature of the
-/// other body. In the words {0} is the feature that changes, {1} the new one, {2} the other body's.
+/// other body. In the text {0} is the feature that changes, {1} the new one, {2} the other body's.
 struct Transition {
   int number;
   FeatureKind from, to, other;
@@ -47,7 +47,7 @@ std::span<const Transition> all_transitions() {
   return list;
 }
 
-/// Places of the five states in the diagram's picture.
+/// Positions of the five states in the diagram.
 struct StatePlace {
   const char* name;
   Vec2 x;

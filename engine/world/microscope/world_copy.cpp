@@ -12,11 +12,11 @@
 namespace tumble {
 namespace {
 
-/// Meshes of more triangles are a point in sketches, which are drawn twice a step and for each
-/// step: all edges of a larger one would be millions of lines, and black.
+/// A mesh of more triangles is drawn as a point: sketches are drawn twice a step and for each step,
+/// and the edges of a larger mesh would be millions of lines, all black.
 constexpr size_t most_outlined = 2000;
 
-/// Lines of a shape as those of a sketch.
+/// Draws the lines of a shape into a sketch.
 class SketchLines final : public DebugDraw {
  public:
   SketchLines(Sketch& out, const Pose& pose, Ink ink, float width)
@@ -41,7 +41,7 @@ Result<std::unique_ptr<World>> copy_of(const World& world, std::string_view step
   def.threads = 1;
   auto made = World::create(std::move(def));
   if (!made) return made;
-  (*made)->stop_with(Stoppable::present());  // what stops the question stops the copy
+  (*made)->stop_with(Stoppable::present());  // a stop of the caller stops the copy
   if (const Status loaded = (*made)->load(world.save()); !loaded) return loaded.error();
   if (stepper.empty() || world.settings().stepper == stepper) return made;
   WorldSettings settings = world.settings();

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// The query with a unit quaternion, or why it cannot be answered.
+/// The query with a unit quaternion, or the error in it.
 Result<CastQuery> check_cast(CastQuery q) {
   const auto start = require_pose(q.start);
   if (!start) return start.error();
@@ -27,7 +27,8 @@ bool sooner(const CastHit& a, const CastHit& b) {
   return a.fraction != b.fraction ? a.fraction < b.fraction : a.target < b.target;
 }
 
-/// What touches at the start: the deepest point of its contacts, if its surface is met at all.
+/// The hit of a shape that touches at the start: the deepest contact point, if the surfaces meet at
+/// all.
 CastHit start_hit(const Shape& shape, const Pose& start, const Shape& other, const Pose& pose) {
   CastHit hit;
   hit.x_world = start.x;
@@ -47,7 +48,7 @@ CastHit start_hit(const Shape& shape, const Pose& start, const Shape& other, con
   return hit;
 }
 
-/// The first contact with one shape at fractions up to `limit`.
+/// The first contact with one shape at a fraction up to `limit`.
 std::optional<CastHit> cast_at(const Shape& shape, const CastQuery& q, double limit,
                                const Shape& other, const Pose& pose) {
   if (q.hit_at_start && overlap(shape, q.start, other, pose))
@@ -70,13 +71,13 @@ std::optional<CastHit> cast_at(const Shape& shape, const CastQuery& q, double li
 
 }  // namespace
 
-/// Calls visit(hit) with the first contact of each shape at fractions up to the limit, which it
-/// gives back, perhaps less.
+/// Calls visit(hit) with the first contact of each shape at a fraction up to the limit; it returns
+/// the limit from then on, which may be smaller.
 template <class Visit>
 void QueryScene::casts(const Shape& shape, const CastQuery& q, const QueryFilter& filter,
                        const Visit& visit) const {
   const FilterTest test(filter);
-  // A box about the shape that holds it through all of its rotation.
+  // For a rotating shape, a box about the sphere that contains it in every orientation.
   const bool turns = !q.rotation.isZero(0);
   const Aabb bounds =
       turns ? Aabb{q.start.x, q.start.x}.inflated(shape.bounding_radius()) : shape.bounds(q.start);

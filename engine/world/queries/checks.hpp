@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-// What every query asks of its input.
+// Checks of the input of queries.
 
 inline Error bad_query(std::string message) {
   return {ErrorCode::invalid_argument, std::move(message), {}, {}};
@@ -20,13 +20,13 @@ inline Status require_finite(const char* what, const Vec3& v) {
   return bad_query(fmt::format("{} is not finite: ({}, {}, {})", what, v.x(), v.y(), v.z()));
 }
 
-/// A distance that may be infinite.
+/// The distance may be infinite.
 inline Status require_distance(double d) {
   if (d >= 0) return {};
   return bad_query(fmt::format("max_distance must be >= 0, got {} m", d));
 }
 
-/// A finite pose with its quaternion made unit.
+/// A finite pose, with its quaternion normalised.
 inline Result<Pose> require_pose(const Pose& pose) {
   const double length = pose.q.norm();
   if (!pose.x.allFinite() || !pose.q.coeffs().allFinite() || !(length > 0))

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// A filter made ready for many targets.
+/// A QueryFilter prepared for many tests.
 class FilterTest {
  public:
   explicit FilterTest(const QueryFilter& filter) : filter_(filter) {
@@ -21,7 +21,7 @@ class FilterTest {
       return false;
     return !leaves_out(target.body) && takes(target);
   }
-  /// Particles, whose turn comes only when they count.
+  /// For particles, which are only asked about when the filter includes them.
   bool takes(const QueryTarget& target) const { return !filter_.accept || filter_.accept(target); }
 
  private:

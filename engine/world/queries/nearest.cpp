@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// The few best so far, best first.
+/// The `count` nearest hits so far, nearest first.
 class BestNear {
  public:
   BestNear(size_t count, double reach) : count_(count), reach_(reach) {}
@@ -20,7 +20,8 @@ class BestNear {
     hits_.insert(std::upper_bound(hits_.begin(), hits_.end(), hit, better), hit);
     if (hits_.size() > count_) hits_.pop_back();
   }
-  /// How far others may be and still count; what holds the place may be deeper in it than any.
+  /// Distance up to which others can still be among them: at least 0, since a shape that contains
+  /// the point may be deeper than any found.
   double reach() const {
     return hits_.size() < count_ ? reach_ : std::clamp(hits_.back().distance, 0.0, reach_);
   }

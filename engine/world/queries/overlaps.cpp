@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Calls visit(target) for all that overlaps; its answer says whether to go on.
+/// Calls visit(target) for all that overlaps, until it returns false.
 template <class Visit>
 void QueryScene::overlapping(const Shape& shape, const Pose& pose, const QueryFilter& filter,
                              const Visit& visit) const {

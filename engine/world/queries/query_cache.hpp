@@ -9,10 +9,10 @@ namespace tumble {
 struct Frame;
 class QueryScene;
 
-/// The query scene of a world's last frame, made when it is asked for.
+/// The query scene of a world's last frame, made when it is first asked for.
 class QueryCache {
  public:
-  /// Safe from several threads; those that come while it is made wait for it.
+  /// May be called from several threads; those that call while it is made wait for it.
   std::shared_ptr<const QueryScene> of(const std::shared_ptr<const Frame>& frame, Crew* crew) const;
 
  private:

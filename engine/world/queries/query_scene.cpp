@@ -20,7 +20,7 @@ QueryScene::QueryScene(std::shared_ptr<const Frame> frame, Crew* crew) : frame_(
 }
 
 bool QueryScene::serves(const Frame& frame) const {
-  // Published parts that did not change are shared; those of particles never are.
+  // Parts of frames that did not change are shared; those of particles never are.
   return &frame == frame_.get() ||
          (frame.chunks == frame_->chunks && frame.infos == frame_->infos &&
           frame.particles.empty() && frame_->particles.empty());

@@ -13,7 +13,8 @@ Status check_ray(const RayQuery& q) {
   return require_distance(q.max_distance);
 }
 
-/// Unit, or zero; the largest component first, so that no square under- or overflows.
+/// The unit vector, or zero; scaled by the largest component first, so that no square overflows or
+/// underflows.
 Vec3 unit_or_zero(const Vec3& d) {
   const double largest = d.cwiseAbs().maxCoeff();
   return largest > 0 ? Vec3((d / largest).normalized()) : Vec3(Vec3::Zero());
@@ -25,7 +26,8 @@ bool nearer(const RayQueryHit& a, const RayQueryHit& b) {
 
 }  // namespace
 
-/// Calls visit(hit) with every hit no further than the limit, which it gives back, perhaps shorter.
+/// Calls visit(hit) with every hit up to the limit; it returns the limit from then on, which may be
+/// smaller.
 template <class Visit>
 void QueryScene::rays(const RayQuery& query, const QueryFilter& filter, const Visit& visit) const {
   const FilterTest test(filter);

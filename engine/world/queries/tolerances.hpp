@@ -1,12 +1,12 @@
 #pragma once
 
-/// The numbers of this room that no query gives: unit and reason.
+/// The constants of this folder that no query gives, with unit and reason.
 namespace tumble::tolerances {
 
-/// What bounds grow by before the tree is asked, relative to the greatest coordinate [-]: the
-/// rounding of the bounds.
+/// Bounds are enlarged by this share of the greatest coordinate before the tree is searched [-]:
+/// the rounding of the bounds.
 inline constexpr double query_rounding = 1e-13;
-/// Half the size of a box that holds everything, whose extent is still finite [m].
+/// Half the size of a box that contains everything, but whose extent is still finite [m].
 inline constexpr double endless_half_size = 1e300;
 
 }  // namespace tumble::tolerances

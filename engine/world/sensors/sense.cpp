@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// Where the frame of a sensor is on a body, of which the pose of the centre of mass is given.
+/// World pose of a sensor's frame on a body, given the pose of the body's centre of mass frame.
 Pose on_carrier(const SensorDef& def, const RigidBody& carrier, const Pose& centre) {
   const Pose body{centre.x - centre.direction(carrier.centre_body), centre.q};
   return body * def.pose;
@@ -36,7 +36,7 @@ bool looks_at_particles(const SensorDef& def) {
   return def.particles && (!def.only_systems.empty() || def.only_bodies.empty());
 }
 
-/// Calls f for every live sensor of a kind, with its place.
+/// Calls f for every live sensor of a kind, with its slot.
 template <class F>
 void for_kind(const SensorSet& sensors, SensorKind kind, const F& f) {
   for (uint32_t i = 0; i < sensors.defs.size(); ++i)
@@ -52,8 +52,8 @@ void find_body_paths(WorldState& s, std::vector<CentrePath>& out) {
   }
 }
 
-/// Paths of the particles of `now`, which are those of `start` (ids ascend in both), or are younger
-/// than the tick.
+/// Paths of the particles of `now`: each is also in `start` (ids ascend in both), or was born in
+/// the tick.
 void find_particle_paths(const ParticleSystem& start, const ParticleSystem& now,
                          std::vector<CentrePath>& out) {
   size_t k = 0;
@@ -77,7 +77,7 @@ void find_particle_paths(WorldState& s, std::vector<std::vector<CentrePath>>& ou
   }
 }
 
-/// What went through a gate in a tick.
+/// What passed through a gate in a tick.
 struct Tally {
   uint64_t forward = 0, backward = 0;
   double mass_forward = 0, mass_backward = 0;
@@ -123,7 +123,7 @@ void note(const Tally& tally, const SensorDef& def, double now, double h, Sensor
   const double mass = tally.mass_forward - tally.mass_backward;
   if (mass != 0) state.recent.push_back({now, mass});
   const double span = std::max(std::round(def.span / h), 1.0) * h;
-  const double first = now - span + 0.5 * h;  // half a tick: rounding of times does not decide
+  const double first = now - span + 0.5 * h;  // half a tick against rounding of times
   std::erase_if(state.recent, [first](const Passage& p) { return p.time < first; });
   double sum = 0;
   for (const Passage& p : state.recent) sum += p.mass;
@@ -162,7 +162,7 @@ void sense_gates(WorldState& s) {
   });
 }
 
-/// What is known of a contact sensor while the contacts are gone through.
+/// State of a contact sensor while the contacts are visited.
 struct Touch {
   bool pressed = false, near = false;
   Vec3 impulse = Vec3::Zero();  ///< on a [N s]
@@ -183,7 +183,8 @@ Touch look_up(const WorldState& s, const SensorDef& def, double rattle) {
     out.pressed = out.pressed || c.pressed();
   };
   for (const Contact& c : s.contacts.contacts()) look(c);
-  // What lies on a body that nothing moves may rest while others move.
+  // Contacts between bodies at rest may be with a fixed or kinematic body, which is not itself at
+  // rest.
   if (!s.bodies.bodies[def.a.index].dynamic() || s.contacts.rests(def.a.index))
     for (const Contact* c : s.contacts.resting()) look(*c);
   return out;

@@ -8,14 +8,14 @@ namespace tumble {
 namespace {
 
 bool within(double x, double half) {
-  return -half <= x && x < half;  // so that of two neighbours one has what is between them
+  return -half <= x && x < half;  // half-open: a point between two neighbours is in one
 }
 
 bool in_disc(const Vec3& x, double radius) {
   return x.x() * x.x() + x.z() * x.z() <= radius * radius;
 }
 
-/// The extents that a form has, as bits of x, y and z.
+/// The extents that a form uses, as bits for x, y and z.
 int axes_of(SensorForm form) {
   switch (form) {
     case SensorForm::disc:

@@ -15,12 +15,12 @@ namespace tumble {
 struct SensorTag;
 using SensorId = Handle<SensorTag>;
 
-/// What a sensor measures. None does anything to what it measures.
+/// What a sensor measures. Sensors do not influence the simulation.
 enum class SensorKind : uint8_t {
-  gate,     ///< what goes through a flat shape, and which way
-  region,   ///< what is in a solid shape
-  contact,  ///< whether a body touches another, or anything
-  radial,   ///< at what distances from each other particles are
+  gate,     ///< centres that pass through a flat shape, and in which direction
+  region,   ///< centres inside a solid shape
+  contact,  ///< whether one body touches another one, or any
+  radial,   ///< the radial distribution g(r) of particles
 };
 
 /// Forms of gates (flat, in the plane y = 0 of their frame) and of regions.
@@ -29,13 +29,13 @@ inline bool is_flat(SensorForm form) {
   return form == SensorForm::disc || form == SensorForm::rectangle;
 }
 
-/// A form about the origin of its frame.
+/// A form, centred at the origin of its frame.
 struct SensorShape {
   SensorForm form = SensorForm::disc;
-  /// Half the extents [m]; of what is round x is the radius, of a cylinder y half the height.
+  /// Half the extents [m]; for round forms x is the radius, for a cylinder y is half the height.
   Vec3 half{0.5, 0.5, 0.5};
 };
-/// Whether a point of the shape's frame is in it; of flat forms y does not matter.
+/// Whether a point, in the shape's frame, is inside; for flat forms y is ignored.
 bool holds(const SensorShape& shape, const Vec3& x);
 
 struct SensorDef {
@@ -44,13 +44,14 @@ struct SensorDef {
 
   // Gates and regions.
   SensorShape shape;
-  BodyId carrier;  ///< null: it stands in space
+  BodyId carrier;  ///< null: fixed in the world
   Pose pose;       ///< of the shape's frame in the carrier's body frame, or in the world
-  /// Whose centres it looks at: dynamic bodies, particles; only these where lists are not empty.
+  /// Which centres are counted: dynamic bodies, particles; only those listed, if the lists are not
+  /// empty.
   bool bodies = true, particles = true;
   std::vector<BodyId> only_bodies;
   std::vector<ParticleSystemId> only_systems;
-  double span = 1;  ///< of a gate: its flow is the mean over so long, ticks at least [s]
+  double span = 1;  ///< of a gate: the flow is the mean over this time, at least one tick [s]
 
   // Contacts.
   BodyId a, b;  ///< b null: any other body
@@ -61,29 +62,29 @@ struct SensorDef {
   static constexpr uint32_t most_shells = 100;
 };
 
-/// Says which value is wrong. What it names need not exist.
+/// The error says which value is wrong. Ids need not exist.
 Status validate(const SensorDef& def);
 
-/// Mass that went through a gate in one tick, against its y axis negative.
+/// Mass that passed through a gate in one tick, negative against its y axis.
 struct Passage {
   double time = 0;  ///< of the end of the tick [s]
   double mass = 0;  ///< [kg]
 };
 
-/// What a sensor has measured since it was made.
+/// What a sensor has measured since its creation.
 struct SensorState {
-  double begun = 0;  ///< when it was made [s]
+  double begun = 0;  ///< time of its creation [s]
 
   // Of a gate.
   uint64_t forward = 0, backward = 0;          ///< passages along its y axis, and against it
-  double mass_forward = 0, mass_backward = 0;  ///< of these [kg]
-  double flow = 0;                             ///< in the mean of the span [kg/s]
-  std::vector<Passage> recent;                 ///< of the span, a tick each
+  double mass_forward = 0, mass_backward = 0;  ///< mass of these passages [kg]
+  double flow = 0;                             ///< mean over the span [kg/s]
+  std::vector<Passage> recent;                 ///< within the span, one per tick
 
   // Of a contact.
   bool touching = false;
-  uint64_t touches = 0;       ///< beginnings of touch
-  Vec3 force = Vec3::Zero();  ///< on a, in the mean of the last tick [N]
+  uint64_t touches = 0;       ///< number of times that contact began
+  Vec3 force = Vec3::Zero();  ///< mean force on a over the last tick [N]
 };
 
 /// All sensors of a world, by slot.
@@ -100,9 +101,9 @@ struct SensorSet {
 void write_sensor_def(ByteWriter& out, const SensorDef& def);
 SensorDef read_sensor_def(ByteReader& in);
 
-/// Which way a straight path goes through a flat shape, both ends given in the shape's frame at
-/// their time: 1 along its y axis, -1 against it, 0 not at all. A point of the plane counts as
-/// above it, so that of paths that follow each other exactly one goes through.
+/// Direction in which a straight path crosses a flat shape: 1 along its y axis, -1 against it, 0 if
+/// it does not cross. Both ends are given in the shape's frame at their times. A point in the plane
+/// counts as above it, so that of consecutive paths exactly one crosses.
 int passage(const SensorShape& shape, const Vec3& from, const Vec3& to);
 
 }  // namespace tumble

@@ -2,9 +2,9 @@
 
 namespace tumble::tolerances {
 
-/// Who touched stays in touch up to gaps of so many g h^2 [-]. Two bodies that part and fall back
-/// within three ticks of h are apart by g (3 h)^2 / 8 at most; that is the rattling of what rests
-/// or rolls and no new touch.
+/// Gap up to which bodies that touched count as still touching, in units of g h^2 [-]. Two bodies
+/// that separate and fall back within three ticks of h are apart by at most g (3 h)^2 / 8: such
+/// rattling of bodies that rest or roll is not a new touch.
 inline constexpr double rattle_gap = 9.0 / 8.0;
 
 }  // namespace tumble::tolerances

@@ -5,10 +5,10 @@
 namespace tumble::lcp {
 
 /// A problem with A = G G^T, with linear systems in the columns of G rather than in its rows: the
-/// step by_z dz + by_w (A + e) dz = -f has a = G^T dz from (1 + G^T D G) a = -G^T E^-1 f with
-/// E = by_z + e by_w and D = E^-1 by_w, both diagonal but for groups (Woodbury): a matrix as sparse
-/// as the graph of blocks that share rows, and without redundant rows. As long as D stays the same
-/// the factorisation is kept.
+/// step by_z dz + by_w (A + e) dz = -f has a = G^T dz from (1 + G^T D G) a = -G^T E^-1 f, where E =
+/// by_z + e by_w and D = E^-1 by_w are diagonal except for groups (Woodbury). This matrix is as
+/// sparse as the graph of blocks that share rows, and regular for redundant rows. Its factorisation
+/// is kept as long as D is unchanged.
 class BlockSystem final : public ConeSystem {
  public:
   /// The problem must outlive it.
@@ -21,7 +21,7 @@ class BlockSystem final : public ConeSystem {
   void slack(const VecX& z, const Proximal& about, VecX& w) override;
   bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) override;
   double least_term(const VecX& z) const override { return units_.own_terms(z); }
-  /// Relative to the terms within units, which are at most all terms.
+  /// Relative to the largest sum of terms within units, which is at most that of all terms.
   double residual(const VecX& z) override;
   /// As for problems with a matrix, up to the rounding of w.
   LcpResidual validate(const VecX& z, VecX& w) { return judged(z, largest_term(z), w); }
@@ -39,7 +39,7 @@ class BlockSystem final : public ConeSystem {
   const BlockProblem& problem_;
   const BlockUnits units_;
   std::vector<double> u_, a_;
-  std::vector<Square> responses_;  ///< D of the factorisation
+  std::vector<Square> responses_;  ///< D at the last factorisation
   bool factored_ = false;
   BlockFactor factor_;
 };

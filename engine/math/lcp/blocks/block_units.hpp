@@ -8,15 +8,15 @@
 
 namespace tumble::lcp {
 
-/// Rows of G of a unit, in scaled units.
+/// The rows of G of a unit, in scaled units.
 struct BlockEntries {
   std::array<int, 2> block{-1, -1};
-  std::array<std::array<double, 18>, 2> g{};  ///< by rows, 6 to each, for each block
-  Square own{};                               ///< the unit's part of A
+  std::array<std::array<double, 18>, 2> g{};  ///< by rows of 6, for each block
+  Square own{};                               ///< the unit's diagonal block of A
 };
 
 /// Rows and columns of G in scaled units (scaling.hpp), for products in a fixed order. Units are
-/// named by their place in the lists.
+/// referred to by their index in the lists.
 class BlockUnits {
  public:
   /// The problem must outlive it.
@@ -26,11 +26,11 @@ class BlockUnits {
   std::vector<double> d;  ///< units of the unknowns
   VecX b;
   std::vector<ConeUnit> parts;
-  std::vector<BlockEntries> entries;  ///< of each part
+  std::vector<BlockEntries> entries;  ///< by part
 
-  /// Prepares a matrix for G^T D G, D by units.
+  /// Sets the pattern of a matrix for G^T D G, with D block diagonal by units.
   void set_pattern(int blocks, BlockFactor& factor) const;
-  /// Adds a unit's part of G^T D G; `response` is its part of D.
+  /// Adds a unit's contribution to G^T D G; `response` is its block of D.
   void add_response(size_t unit, const Square& response, BlockFactor& factor) const;
   /// u = G^T z
   void gather(const VecX& z, std::vector<double>& u) const;
@@ -38,7 +38,7 @@ class BlockUnits {
   Triple rows_times(size_t unit, const std::vector<double>& u) const;
   /// u += G^T x of one unit.
   void add_rows(size_t unit, const Triple& x, std::vector<double>& u) const;
-  /// The largest sum of a row's terms within its own unit, at most what it is with all of them.
+  /// The largest sum of a row's absolute terms within its own unit, at most that of all its terms.
   double own_terms(const VecX& z) const;
 };
 

@@ -5,8 +5,8 @@
 
 namespace tumble::lcp {
 
-/// A convex set that one unknown, or the three of a group, may be in when w is given: one factor of
-/// the set of all solutions with that w.
+/// The convex set of the values of one unknown, or of the three of a group, that are compatible
+/// with w: one factor of the set of all solutions with that w.
 struct SolutionCell {
   enum Kind : uint8_t {
     interval,  ///< one unknown in [lower, upper]
@@ -23,12 +23,12 @@ struct SolutionCell {
 
   using Point = std::array<double, 3>;
   using Matrix = std::array<Point, 3>;
-  /// The nearest point of the set, and an element of the generalised Jacobian of that map
+  /// The nearest point of the set, and an element of the generalised Jacobian of that projection
   /// (symmetric).
   Point project(const Point& x, Matrix& jacobian) const;
 };
 
-/// The sets for w, in which entries below `still` (in units in which A_ii is 1) count as 0.
+/// The sets for w, whose entries below `still` (in units in which A_ii is 1) count as 0.
 std::vector<SolutionCell> solution_cells(const LcpProblem& problem, const VecX& z, const VecX& w,
                                          double still);
 

@@ -4,29 +4,30 @@
 
 namespace tumble::lcp {
 
-/// How long Newton's method goes on.
+/// Limits of Newton's method.
 struct NewtonLimits {
   int steps;    ///< for one proximal problem
-  int systems;  ///< matrices factored, where options name no other number
-  int sweeps;   ///< of projected Gauss-Seidel, before the last start
+  int systems;  ///< matrices factored, unless options give another limit
+  int sweeps;   ///< sweeps of projected Gauss-Seidel before the last start
 };
 
-/// Semi-smooth Newton on the natural map of a system (natural_map.hpp), of which it remembers the
-/// best point. Points are in scaled units.
+/// Semi-smooth Newton on the natural map of a system (natural_map.hpp), with the best point found.
+/// Points are in scaled units.
 class SemismoothNewton {
  public:
   static constexpr double usual_weight = tolerances::usual_weight;
 
   SemismoothNewton(ConeSystem& system, const NewtonLimits& limits, const LcpOptions& options);
 
-  /// Measures a point; true when none need be better.
+  /// Measures a point; true if it is good enough.
   bool consider(const VecX& z);
-  /// From z by proximal steps of a weight, the first about 0 or about z: the next begins where the
-  /// last ended, until nothing is regularised any more. True when the best is good.
+  /// Proximal steps from z with this weight, the first centred at 0 or at z, each starting where
+  /// the last one ended, until the regularisation has vanished. True if the best point is good
+  /// enough.
   bool attempt(VecX z, double weight = usual_weight, bool about_zero = true);
-  /// From the solution with the rows of all undecided groups as equations.
+  /// Starts from the solution with the rows of all undecided groups as equations.
   bool attempt_inside();
-  /// From ever more sweeps, which begin at z.
+  /// Restarts after increasing numbers of sweeps, which begin at z.
   bool attempt_after_sweeps(VecX z);
 
   const BestPoint& best() const { return best_; }

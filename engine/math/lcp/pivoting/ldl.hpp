@@ -4,13 +4,13 @@
 
 namespace tumble::lcp {
 
-/// L D L^T of the part of a symmetric positive definite matrix that belongs to a set of indices,
-/// which grows at the end and shrinks anywhere. A deletion is a rank-one update with a positive
-/// factor, which is as stable as factoring anew (Gill, Golub, Murray & Saunders 1974, method C1).
-/// Each operation costs O(m^2) for m members.
+/// L D L^T of the submatrix of a symmetric positive definite matrix with a set of indices to which
+/// indices are appended, and from which any index can be removed. A deletion is a rank-one update
+/// with a positive factor, which is as stable as a new factorisation (Gill, Golub, Murray &
+/// Saunders 1974, method C1). Each operation costs O(m^2) for m members.
 class LdlFactor {
  public:
-  /// Forgets all; room for `capacity` members.
+  /// Removes all members; reserves memory for `capacity`.
   void reset(int capacity);
 
   int size() const { return int(members_.size()); }
@@ -25,10 +25,10 @@ class LdlFactor {
   /// y := (L D L^T)^-1 y.
   void solve(double* y) const;
 
-  /// What remains of `diagonal` when the members are eliminated: diagonal - y D^-1 y with
-  /// y = L^-1 (the column of the new index in the rows of the members).
+  /// Schur complement of a new diagonal entry: diagonal - y D^-1 y, with y = L^-1 (the column of
+  /// the new index in the rows of the members).
   double remainder(double diagonal, const double* y) const;
-  /// Adds an index whose y and remainder (> 0) are known.
+  /// Appends an index with these y and remainder (> 0).
   void append(int index, const double* y, double remainder);
   /// Removes the member at `position`.
   void remove(int position);

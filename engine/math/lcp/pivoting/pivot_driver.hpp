@@ -4,18 +4,18 @@
 
 namespace tumble::lcp {
 
-/// Drives unknowns of a PivotState one after the other until all conditions hold, the directions of
-/// laterals on their surfaces being kept: the main part of dantzig() and, with groups, of baraff()
-/// ("Fast contact force computation for nonpenetrating rigid bodies", SIGGRAPH 1994, §4 to §5),
-/// which say how.
+/// Drives unknowns of a PivotState one after the other until all conditions hold, with the
+/// directions of laterals on the cone's surface fixed: the main part of dantzig() and, with groups,
+/// of baraff() ("Fast contact force computation for nonpenetrating rigid bodies", SIGGRAPH 1994, §4
+/// to §5), where it is described.
 class PivotDriver {
  public:
-  /// Writes its steps to a trace, if there is one.
+  /// Records its steps in a trace, if there is one.
   PivotDriver(PivotState& state, int limit, PivotTrace* trace = nullptr)
       : s_(state), limit_(limit), trace_(trace) {}
 
-  /// `solved` when all conditions but the alignment of laterals with w hold. Where a motion is
-  /// stopped by nothing, with its ray: `infeasible` without groups, else `ray`.
+  /// `solved` when all conditions hold, except that laterals need not be aligned with w. If a
+  /// motion is not stopped by anything, sets `ray`: `infeasible` without groups, else `ray`.
   LcpStatus run();
   VecX ray;
 

@@ -9,21 +9,22 @@
 
 namespace tumble::lcp {
 
-/// Where an unknown is.
+/// Position of an unknown relative to its bounds.
 enum class Place : uint8_t { lower, between, upper };
 
-/// What an unknown does while another is driven.
+/// Behaviour of an unknown while another is driven.
 enum class Role : uint8_t {
-  at_bound,  ///< stays at a bound (axial: the group is open, all three are 0)
+  at_bound,  ///< stays at a bound (axial: the group is open, all three unknowns are 0)
   clamped,   ///< moves so that its w does not change
-  resting,   ///< free to move, but does not: its w is still wrong, or depends on the clamped ones
-  tied,      ///< a lateral on the cone's surface: moves with the axial unknown
+  /// Free, but does not move: its w is still wrong, or its row depends on clamped ones.
+  resting,
+  tied,  ///< a lateral on the cone's surface: moves with the axial unknown
 };
 
 /// A point of principal pivoting, with cones or without; z and w = A z + b are kept in scaled
-/// units. Without groups L D L^T of the clamped unknowns follows each exchange; with them the
-/// matrix is not symmetric where laterals are tied, and is factored anew for each direction. The
-/// lateral axes of circular undecided groups are turned as needed: on the surface, the first is the
+/// units. Without groups L D L^T of the clamped unknowns is updated with each exchange; with groups
+/// the matrix is not symmetric if laterals are tied, and is factored anew for each direction. The
+/// lateral axes of circular undecided groups are rotated: on the surface, the first axis is the
 /// direction of z_lateral.
 class PivotState {
  public:
@@ -32,9 +33,10 @@ class PivotState {
   struct Group {
     ConeGroup cone;
     std::array<double, 2> tie{};  ///< z_lateral[k] = tie[k] z_axial where tied
-    double cosine = 1, sine = 0;  ///< the first axis in the problem's axes
+    double cosine = 1, sine = 0;  ///< direction of the first axis in the problem's axes
     bool open(const PivotState& s) const { return s.role[size_t(cone.axial)] == Role::at_bound; }
-    /// Laterals that are always tied: prescribed, or a cone without width.
+    /// Whether the laterals are always tied: their direction is prescribed, or the cone has no
+    /// width.
     bool prescribed() const { return cone.mode == ConeMode::sliding || cone.slope == 0; }
     bool round() const { return !prescribed() && cone.shape == ConeShape::circular; }
   };
@@ -45,10 +47,11 @@ class PivotState {
   std::vector<int> group_of;  ///< -1: none
   std::vector<Role> role;
   std::vector<Place> place;
-  std::vector<char> excused;  ///< w misses 0 by no more than rounding of dependent rows can explain
+  /// W differs from 0 by no more than the rounding of dependent rows can explain.
+  std::vector<char> excused;
   VecX z, w;
   int pivots = 0;
-  double magnitude = 0;  ///< of the terms that make up w: what its rounding errors are relative to
+  double magnitude = 0;  ///< of the terms that add up to w, the scale of its rounding errors
 
   double tolerance() const { return tolerances::w_rounding * magnitude; }
   bool is_clamped(int i) const { return role[size_t(i)] == Role::clamped; }
@@ -58,46 +61,46 @@ class PivotState {
   bool grouped(int i) const { return group_of[size_t(i)] >= 0; }
   const Group& group(int i) const { return groups[size_t(group_of[size_t(i)])]; }
   Group& group(int i) { return groups[size_t(group_of[size_t(i)])]; }
-  /// By how much the condition of an unknown is not met; 0 for clamped, fixed and excused ones.
+  /// Violation of the condition of an unknown; 0 for clamped, fixed and excused ones.
   double wrong(int i) const;
   /// For a tied lateral: its w in the direction of z, which must not be positive.
   double outward(int i) const;
-  /// By how much z_i is beyond its bounds: negative below the lower, positive above the upper.
+  /// Distance of z_i beyond its bounds: negative below the lower, positive above the upper.
   double beyond(int i) const;
 
-  /// The clamped unknowns, with groups those of the last direction().
+  /// The clamped unknowns; with groups, those of the last direction().
   const std::vector<int>& members() const { return groups.empty() ? factor_.members() : clamped_; }
-  /// Changes of z per unit of unknown l, with the clamped and tied ones following, and of w. False:
-  /// singular.
+  /// Changes of z, and of w, per unit of unknown l, with the clamped and tied unknowns following.
+  /// False if the matrix is singular.
   bool direction(int l, double sign, VecX& dz, VecX& dw);
-  /// Of the last direction: the rate of w of its unknown, a Schur complement.
+  /// Rate of the driven unknown's w in the last direction: a Schur complement.
   double remainder() const { return remainder_; }
-  /// Clamps the unknown of the last direction, if something remained.
+  /// Clamps the driven unknown of the last direction, if its Schur complement is not zero.
   void enter_driven(int l);
-  /// Clamps i unless less than `least` remains of its diagonal entry.
+  /// Clamps i, unless its Schur complement is less than `least`.
   bool enter(int i, double least);
   /// Puts an unknown without group at one of its bounds.
   void leave(int i, Place to);
-  /// Puts clamped ones at `positions` (ascending) at their nearer bounds; factors anew where that
-  /// is less work.
+  /// Sets the clamped unknowns at `positions` (ascending) to their nearer bounds; recomputes the
+  /// factor if that is less work.
   void leave_many(const std::vector<int>& positions);
-  /// Without groups: z of the clamped unknowns from the others, then w.
+  /// Without groups: solves for z of the clamped unknowns, then computes w.
   void solve();
   /// Without groups: one step of iterative refinement of the clamped unknowns.
   void refine();
 
-  /// Turns the lateral axes of a round group so that the first lies along (x, y), given in the
-  /// present axes; nothing when that is 0.
+  /// Rotates the lateral axes of a circular group so that the first is along (x, y), given in the
+  /// present axes; nothing if that is 0.
   void turn(Group& g, double x, double y);
-  /// Ties the laterals where the cone's surface is met on the way out, or where they would slip if
-  /// the axial unknown grew from 0.
+  /// Ties the laterals: along z, where they have reached the cone's surface; or against w, as they
+  /// would slip if the axial unknown increased from 0.
   void tie_along_z(Group& g);
   void tie_against_w(Group& g);
   void open(Group& g);
 
   /// z, or a direction, in the problem's units and axes.
   VecX in_own_units(const VecX& from) const;
-  /// Identifies roles and places.
+  /// Hash of roles and places.
   uint64_t signature() const;
 
  private:

@@ -3,19 +3,19 @@
 
 namespace tumble::lcp {
 
-/// What ends the motion of a driven unknown, or changes who follows it.
+/// Event that ends the motion of a driven unknown, or changes the role of another.
 enum class PivotEvent : uint8_t {
   none,
-  own_w,      ///< its w has come to 0: it is clamped from then on
-  own_bound,  ///< it has met its other bound
-  bound,      ///< a clamped unknown has met a bound, where it stays
-  apex,       ///< the axial unknown of a group has come to 0: the group opens
-  surface,    ///< the laterals of a group have met the cone's surface
-  other_w,    ///< the w of another unknown has come to 0 and would change its sign
-  inward,     ///< laterals on the surface want back inside
+  own_w,      ///< its w has become 0: it is clamped from then on
+  own_bound,  ///< it has reached its other bound
+  bound,      ///< a clamped unknown has reached a bound, where it stays
+  apex,       ///< the axial unknown of a group has become 0: the group opens
+  surface,    ///< the laterals of a group have reached the cone's surface
+  other_w,    ///< the w of another unknown has become 0 and would change its sign
+  inward,     ///< laterals on the surface move back inside
 };
 
-/// Where an unknown is in the course of pivoting.
+/// Role of an unknown during pivoting.
 enum class PivotSet : uint8_t {
   at_lower,
   at_upper,
@@ -24,24 +24,23 @@ enum class PivotSet : uint8_t {
   tied,     ///< a lateral on the cone's surface, which follows its axial unknown
 };
 
-/// A point on the way of principal pivoting.
+/// A state during principal pivoting.
 struct PivotStep {
-  int driven = -1;  ///< the unknown that moved to here; -1: none, the start
+  int driven = -1;  ///< the unknown that moved; -1: none, at the start
   PivotEvent event = PivotEvent::none;
-  int limiting = -1;  ///< whose limit it was
-  double step = 0;    ///< by which the driven one moved, with its sign, in its own unit
+  int limiting = -1;  ///< the unknown whose limit stopped the motion
+  double step = 0;    ///< displacement of the driven unknown, in its own unit
   VecX z;             ///< in the problem's own units and axes
-  /// By unknown; of laterals of circular groups along the axes that the method has turned them to.
+  /// By unknown; for laterals of circular groups along the axes as rotated by the method.
   std::vector<PivotSet> sets;
 };
 
-/// What a pivoting method writes down as it goes, for whoever asks for it (watch_dantzig(),
-/// watch_baraff()).
+/// Record of a pivoting method, made on request (watch_dantzig(), watch_baraff()).
 struct PivotTrace {
   std::vector<PivotStep> steps;  ///< the first one is the start
-  size_t most = 400;             ///< more are counted, not kept
+  size_t most = 400;             ///< further steps are counted, but not kept
   size_t left_out = 0;
-  /// The direction of laterals has been turned by Newton's method after the last step.
+  /// The directions of laterals were turned by Newton's method after the last step.
   bool polished = false;
 };
 

@@ -6,23 +6,23 @@ namespace tumble::lcp {
 
 /// Whether no group is undecided.
 bool all_slide(const LcpProblem& problem);
-/// Groups all of which slide: adds the columns of the lateral unknowns to those of the axial ones,
-/// which they follow, and says which unknowns are lateral.
+/// For groups that all slide: adds the columns of lateral unknowns, which follow the axial ones, to
+/// those of the axial ones. Returns which unknowns are lateral.
 std::vector<char> fold_sliding(const LcpProblem& problem, ScaledProblem& scaled);
-/// Lateral unknowns from the axial ones.
+/// Sets the lateral unknowns from the axial ones.
 void set_sliding(const LcpProblem& problem, VecX& z);
 
-/// A problem with bounds and sliding groups as w' = M v + q >= 0, v >= 0, v w' = 0: bounds are
-/// moved to 0, a second bound becomes a row and a multiplier, a free unknown the difference of two,
-/// lateral unknowns of sliding groups are replaced by their axial ones. M stays semi-definite if A
-/// was.
+/// A problem with bounds and sliding groups in the form w' = M v + q >= 0, v >= 0, v w' = 0: lower
+/// bounds are shifted to 0, a second bound becomes a row and a multiplier, a free unknown the
+/// difference of two, and lateral unknowns of sliding groups are replaced by their axial ones. M is
+/// semi-definite if A is.
 struct StandardForm {
   explicit StandardForm(const LcpProblem& problem);
 
   int size = 0;
   std::vector<double> M;  ///< by rows
   std::vector<double> q;
-  /// z (unscaled) of a standard v; with `direction` true only its linear part.
+  /// z (unscaled) for a v of the standard form; with `direction` true only its linear part.
   VecX back(const std::vector<double>& v, bool direction) const;
 
  private:

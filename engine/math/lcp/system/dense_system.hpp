@@ -5,7 +5,8 @@
 
 namespace tumble::lcp {
 
-/// A problem with a matrix. Steps solve for the unknowns that have more to say than dz_i = -f_i.
+/// A problem with a dense matrix. The linear system of a step has only the unknowns whose equation
+/// is not simply dz_i = -f_i.
 class DenseSystem final : public ConeSystem {
  public:
   /// The problem must outlive it.
@@ -34,7 +35,7 @@ class DenseSystem final : public ConeSystem {
   const ScaledProblem scaled_;
   std::vector<ConeUnit> parts_;
   std::vector<Square> own_;
-  std::vector<int> active_, place_;  ///< unknowns that the linear system is in; their columns
+  std::vector<int> active_, place_;  ///< unknowns of the linear system; their columns
   std::vector<double> matrix_, right_;
   LuFactor lu_;
   VecX swept_w_;
