@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -31,6 +32,10 @@ class KeyframeRing {
   /// before it, then steps with the logged commands, and those of that tick itself. `before` gets
   /// the frame of the tick before it, or null where that is not on the way.
   Status seek(World& world, uint64_t tick, std::shared_ptr<const Frame>* before = nullptr);
+  /// Goes the way that led to the present of `world` once more, from `from` or the first keyframe
+  /// on: `each` sees the world at every tick as it was left there, and says whether to go on. For a
+  /// world of the same history that nobody else looks at.
+  Status walk(World& world, uint64_t from, const std::function<bool(const World&)>& each) const;
   /// Brings the world to the first keyframe, without what was changed at its tick afterwards.
   Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }
