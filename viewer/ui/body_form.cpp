@@ -216,7 +216,9 @@ void draw_shape_choice(PanelContext& context, const BodyDef& def) {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##add shape", "add a shape ...")) {
     for (const ShapeEntry& entry : all_shapes()) {
-      if (made_of_mesh(entry.type) || entry.type == ShapeType::half_space) continue;
+      if (made_of_mesh(entry.type)) continue;
+      const auto made = make_shape(fresh_shape(def, entry.type).shape);
+      if (!made || !std::isfinite((*made)->bounding_radius())) continue;
       const std::string name(entry.name);
       if (ImGui::Selectable(label_of(name).c_str()))
         context.ask(EditBody{

@@ -249,6 +249,11 @@ void FileChanges::change_count_of_shapes(const ChangedBody& c, const BodyName& n
         g > 0 && material_json(part.material) == material_json(c.after.shapes[0].material);
     if (!alike || edit.value(shape_path(name, 0) / "material"))
       shape["material"] = material_json(part.material);
+    // One shape stands under "shape", several under "shapes".
+    if (const auto only = edit.value(body / "shape")) {
+      edit.set(body / "shape", "[" + std::string(*only) + "]");
+      edit.rename(body / "shape", "shapes");
+    }
     if (!edit.append(body / "shapes", one_line(shape)))
       set(body / "shapes", Json::array({std::move(shape)}));
   }

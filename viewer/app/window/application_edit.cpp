@@ -210,8 +210,10 @@ void Application::edit_body(const EditBody& edit) {
     BodyDef after = *before;
     edit.change(after);
     if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
-    if (edits->empty()) edits->push_back(ChangedBody{before->name, *before, after});
-    if (auto* change = std::get_if<ChangedBody>(&edits->front())) edit.change(change->after);
+    if (edits->empty())
+      edits->push_back(ChangedBody{before->name, *before, after});
+    else if (auto* change = std::get_if<ChangedBody>(&edits->front()))
+      edit.change(change->after);
   });
 }
 
