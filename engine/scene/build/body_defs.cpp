@@ -80,7 +80,8 @@ struct Maker {
     if (!d) {
       const auto* hull = std::get_if<ConvexHullShapeDescription>(&s.kind);
       if (hull && !hull->mesh.empty() && whole.shape.mesh)
-        if (const std::string note = hull_note(whole.shape.mesh); !note.empty())
+        if (const std::string note = hull_note(whole.shape.mesh);
+            !note.empty() && meshes.says_first(*whole.shape.mesh, note))
           warnings.push_back(path + ": " + note);
       out.shapes.push_back(whole);
       return true;
@@ -96,7 +97,8 @@ struct Maker {
       sink(path + ".mode", parts.error().text());
       return false;
     }
-    if (!parts->note.empty()) warnings.push_back(path + ": " + parts->note);
+    if (!parts->note.empty() && meshes.says_first(*mesh, parts->note))
+      warnings.push_back(path + ": " + parts->note);
     append_mesh_parts(out.shapes, whole, mesh, *parts);
     return true;
   }

@@ -77,4 +77,8 @@ const MeshParts* SceneMeshes::parts(const std::string& name) const {
   return it == parts_.end() ? nullptr : &it->second;
 }
 
+bool SceneMeshes::says_first(const TriangleMesh& mesh, const std::string& note) const {
+  return said_.emplace(&mesh, note).second;
+}
+
 }  // namespace tumble

@@ -5,6 +5,10 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 
@@ -18,10 +22,13 @@ class SceneMeshes {
   std::shared_ptr<const TriangleMesh> find(const std::string& name) const;
   /// What a mesh collides as where its shape does not say otherwise: null as find().
   const MeshParts* parts(const std::string& name) const;
+  /// True once for each mesh and sentence about it, however many shapes it would be said of.
+  bool says_first(const TriangleMesh& mesh, const std::string& note) const;
 
  private:
   std::map<std::string, std::shared_ptr<const TriangleMesh>, std::less<>> meshes_;
   std::map<std::string, MeshParts, std::less<>> parts_;
+  mutable std::set<std::pair<const TriangleMesh*, std::string>> said_;
 };
 
 /// The mesh, or the wrap of it that takes its place where one is asked for, which `warnings` are

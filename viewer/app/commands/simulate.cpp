@@ -242,8 +242,11 @@ nlohmann::ordered_json order_json(const std::optional<double>& order) {
 
 /// Three runs and a table in place of one run.
 int run_convergence(SimulateLine& line) {
+  const StopSignal stop;
+  const Stoppable scope(&stop.flag());
   line.request.log = stderr_log(LogLevel::warning);
   const auto scene = load_scene_and_world(line.request);
+  if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
   if (const auto player = replay_of(line.request, *scene); player && *player)
     fmt::print(stderr, "tumble: warning: {} is not played: it is of ticks of one length\n",
@@ -251,7 +254,8 @@ int run_convergence(SimulateLine& line) {
   const auto ticks = ticks_of(line, scene->built.world->settings().tick);
   if (!ticks) return report(ticks.error(), exit_usage);
   line.request.log = {};  // it has said what it had to say
-  const auto measured = measure_convergence(line.request, *ticks);
+  const auto measured = measure_convergence(line.request, *ticks, &stop.flag());
+  if (stop.requested()) return stop.exit_code();
   if (!measured) return report(measured.error(), exit_broken_down);
   if (!line.json) {
     fmt::print("{}", convergence_text(*measured));

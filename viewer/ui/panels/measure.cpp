@@ -78,6 +78,19 @@ void draw_search(PanelContext& context) {
   search.clear();
 }
 
+/// The past of curves that were added late, while it is being computed.
+void draw_past(PanelContext& context) {
+  const auto& share = context.model.past_share;
+  if (!share) return;
+  const std::string text = fmt::format("computing the past: {:.0f} %", 100 * *share);
+  ImGui::ProgressBar(float(*share), ImVec2(ImGui::GetContentRegionAvail().x - 30, 0), text.c_str());
+  context.host.mark("measure.past");
+  ImGui::SameLine();
+  if (icon_button(context, "measure.leave_past", Icon::close, "the curves begin where they do now",
+                  {}, 20))
+    context.ask(LeavePast{});
+}
+
 PlottedCurve curve_of(const Measures::Series& series, size_t index) {
   return {series.quantity.name, series.quantity.unit,
           palette::series[index % palette::series_count], series.at, series.values};
@@ -163,6 +176,7 @@ void draw_measure_panel(PanelContext& context) {
   draw_search(context);
   const auto& all = context.model.measures->series();
   if (all.empty()) return;
+  draw_past(context);
   draw_form(context);
   PlotChoice& choice = context.state.plot;
   for (size_t i = 0; i < all.size(); ++i) {
