@@ -104,7 +104,7 @@ std::string content_fault(const EmitterDef& d) {
   return {};
 }
 
-/// Whether rate and bursts go on for ever.
+/// Whether the rate never ends.
 bool endless(const EmitterDef& d) {
   return d.rate > 0 && !std::isfinite(d.end) && d.count == ~uint64_t{0};
 }
