@@ -14,13 +14,13 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-/// A direction in the half-plane through the y axis: away from it, and along it.
+/// A direction in the half-plane through the y axis: components away from the axis and along it.
 struct Latitude {
   double out = 0, up = 0;
 };
 
-/// Latitudes in even steps, and those of the straight sides of a profile: across the chord between
-/// two supports of the core that differ.
+/// Latitudes in even steps, and the normals of straight sides of the profile, perpendicular to the
+/// chord between two different support points of the core.
 std::vector<Latitude> latitudes(const ConvexShape& shape) {
   constexpr int steps = tolerances::bare_parallels;
   std::vector<Latitude> out;
@@ -46,7 +46,7 @@ std::vector<Latitude> latitudes(const ConvexShape& shape) {
   return out;
 }
 
-/// Planes that bound a convex shape, own frame: its faces, or planes that touch it all around.
+/// Planes that bound a convex shape, in its frame: its faces, or tangent planes all around.
 std::vector<Plane> planes_of(const ConvexShape& shape) {
   std::vector<Plane> out;
   if (const VoronoiPolyhedron* solid = shape.voronoi()) {
@@ -94,7 +94,7 @@ Split split(const Polygon& polygon, const Vec3& normal, double offset, double ro
   return parts;
 }
 
-/// A ball about what it belongs to, so that what is far away is not looked at.
+/// A bounding ball, by which distant pairs are skipped.
 struct Reach {
   Vec3 middle = Vec3::Zero();
   double radius = 0;
@@ -135,8 +135,8 @@ Polygon face_of(const Solid& solid, const Plane& plane, double rounding) {
   return out;
 }
 
-/// Takes what a solid covers out of the pieces of a face with this normal: `slit` wider than it is
-/// on all sides, and seen twice that in front of the face, so that what lies flush stays bare.
+/// Removes from the pieces of a face with this normal what a solid covers. The solid is inflated by
+/// `slit` on all sides, and tested twice that in front of the face, so that flush faces remain.
 void take_out(const Solid& solid, const Vec3& normal, double slit, double rounding,
               std::vector<Polygon>& pieces) {
   std::vector<Polygon> left;

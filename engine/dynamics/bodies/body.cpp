@@ -50,7 +50,7 @@ Status check_material(const Material& m, const std::string& place) {
   return {};
 }
 
-/// The tensor that a definition gives, about the centre of mass.
+/// The inertia tensor that a definition gives, about the centre of mass.
 Mat3 given_inertia(const BodyDef& def) {
   Mat3 out = def.inertia->asDiagonal();
   if (def.products) {
@@ -138,7 +138,7 @@ Result<MassProperties> unit_mass(const Shape& shape, bool hull_mass, const std::
 Result<MassProperties> mass_of_shapes(const BodyDef& def, const std::vector<BodyShape>& shapes) {
   double densities = 0;
   for (const BodyShape& s : shapes) densities += s.material.density;
-  // With a total mass given, weightless shapes still say how it is spread.
+  // If a total mass is given, shapes of zero density still determine its distribution.
   const bool even = !(densities > 0) && def.mass;
   std::vector<MassProperties> parts;
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -155,7 +155,7 @@ Result<MassProperties> mass_of_shapes(const BodyDef& def, const std::vector<Body
   return def.mass ? total.times(*def.mass / total.mass) : total;
 }
 
-/// What the definition says itself, and of the shapes the rest.
+/// Mass properties from the definition, the rest from the shapes.
 Result<MassProperties> total_mass(const BodyDef& def, const std::vector<BodyShape>& shapes) {
   const bool given = def.mass && def.inertia && (def.centre || shapes.empty());
   Result<MassProperties> out =
@@ -192,7 +192,7 @@ Result<std::shared_ptr<const Shape>> make_at(const ShapeDef& def, ShapeFactory m
   return error;
 }
 
-/// Relative to the centre of mass.
+/// The drawn shapes, relative to the centre of mass.
 Result<std::shared_ptr<const std::vector<DrawnShape>>> drawn_shapes(const BodyDef& def,
                                                                     const Vec3& centre,
                                                                     ShapeFactory make) {

@@ -82,7 +82,7 @@ MotionState FreeMotion::read(size_t body, std::span<const double> y) const {
   const size_t at = body * stride;
   MotionState s;
   s.pose.x = three_of(y, at);
-  // Stages have quaternions a little off unit length.
+  // Quaternions at stages of a step are not quite of unit length.
   std::array<double, 4> q{y[at + 3], y[at + 4], y[at + 5], y[at + 6]};
   ode::normalise_quaternion(q);
   s.pose.q = Quat(q[0], q[1], q[2], q[3]);
@@ -147,7 +147,7 @@ void FreeMotion::allowed_errors(const ode::Tolerance& tolerance, std::span<const
   for (size_t i = 0; i < bodies(); ++i) {
     const size_t at = i * stride;
     const double mass = constants_[i].mass;
-    // The least moment of inertia, or less.
+    // A lower bound of the least moment of inertia.
     const double least = 1 / (inverse_inertia_[i].cwiseAbs() * Vec3::Ones()).maxCoeff();
     const double position = tolerance.position + tolerance.relative * three_of(y, at).norm();
     const double linear =

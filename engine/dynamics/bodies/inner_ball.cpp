@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// A ball with places of the walls that it touches, or would after a short step.
+/// A ball, with points of the walls that it touches or would touch after a short step.
 class GrowingBall {
  public:
   GrowingBall(const BareSurface& surface, const Vec3& centre) : surface_(surface) {
@@ -16,10 +16,10 @@ class GrowingBall {
   }
   const InnerBall& ball() const { return now_.ball; }
 
-  /// Whether there is a larger ball, to which it goes.
+  /// Moves to a larger ball; returns whether there is one.
   bool step() {
     if (slide()) return true;
-    // Walls from farther back may have hidden the way.
+    // Walls farther behind may have blocked the way.
     walls_ = {now_.wall};
     return slide() || jump();
   }
@@ -42,8 +42,8 @@ class GrowingBall {
 
   void go(const Look& to) {
     now_ = to;
-    // Walls that it has left behind say nothing about where it grows; those that it will soon touch
-    // again keep it from going to and fro between them.
+    // Distant walls do not affect where the ball grows. Those that it will soon touch again are
+    // kept, so that it does not zigzag between them.
     const double near = tolerances::wall_near_ball * to.ball.radius;
     std::erase_if(walls_, [&](const Vec3& w) { return (w - to.ball.centre).norm() > near; });
     remember(to.wall);
@@ -54,7 +54,8 @@ class GrowingBall {
     walls_.push_back(wall);
   }
 
-  /// Away from the walls, by shorter and shorter steps; what stops the shortest is a wall more.
+  /// Moves away from the walls, by shorter and shorter steps; a wall that stops the shortest one is
+  /// added.
   bool slide() {
     const double radius = now_.ball.radius;
     for (size_t tries = 0; tries < tolerances::ball_walls; ++tries) {
@@ -73,7 +74,7 @@ class GrowingBall {
     return false;
   }
 
-  /// To the middle between a wall that it touches and the one behind: exact where they are even.
+  /// Moves to the middle between a wall and the one opposite: exact for parallel walls.
   bool jump() {
     for (const Vec3& w : walls_) {
       const Vec3 way = now_.ball.centre - w;
@@ -109,8 +110,8 @@ InnerBall grown_ball(const BareSurface& surface, const Vec3& p, double enough) {
 }
 
 Vec3 shortest_of_hull(const std::vector<Vec3>& vectors) {
-  // The shortest of the hull is that of one, two or three of them, and then no other lies before
-  // it; where none is like that, the hull holds zero.
+  // The shortest vector of the hull is that of one, two or three of the vectors, and no other
+  // vector has a smaller component along it; if there is no such vector the hull contains zero.
   Vec3 best = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](const Vec3& v) {

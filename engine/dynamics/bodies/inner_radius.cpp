@@ -20,7 +20,7 @@ bool meet(const InnerBall& a, const InnerBall& b) {
   return (a.centre - b.centre).norm() < a.radius + b.radius;
 }
 
-/// Along and across the axes of a shape: to the sides, edges and corners of a cube.
+/// Directions along and across the axes of a shape: to the sides, edges and corners of a cube.
 std::vector<Vec3> outward_ways() {
   std::vector<Vec3> out;
   for (int k = 0; k < 27; ++k)
@@ -28,7 +28,7 @@ std::vector<Vec3> outward_ways() {
   return out;
 }
 
-/// The balls of a body's convex shapes, and how thick its parts are by them.
+/// The balls in a body's convex shapes, and the thickness that they give.
 class Thickness {
  public:
   explicit Thickness(std::span<const BodyShape> shapes) : surface_(shapes) {
@@ -37,7 +37,8 @@ class Thickness {
     middles_ = balls_.size();
   }
 
-  /// By the balls in the middles of convex shapes; `index` of the shape among them.
+  /// Thickness of a shape by the balls in the middles of convex shapes; `index` is its index among
+  /// these.
   double by_middles(const BodyShape& s, size_t index) const {
     double thick = std::max(s.shape->inner_radius(), balls_[index].radius);
     for (size_t k = 0; k < middles_; ++k)
@@ -45,20 +46,20 @@ class Thickness {
     return thick;
   }
 
-  /// The radius that the ball in the middle of one grows to, or `enough`.
+  /// The radius to which the ball in the middle of a shape grows, at most `enough`.
   double grown_middle(size_t index, double enough) {
     balls_.push_back(grown_ball(surface_, balls_[index].centre, enough));
     return std::min(balls_.back().radius, enough);
   }
 
-  /// The least thickness of a convex shape where it is bare of balls of the radius `least`, or
-  /// `least`.
+  /// The least thickness of a convex shape at places outside of all balls of radius `least`;
+  /// `least` if none is thinner.
   double where_bare(const BodyShape& s, double least) {
     static const std::vector<Vec3> ways = outward_ways();
     const ConvexShape& shape = *s.shape->convex();
     const double own = s.shape->inner_radius();
     for (const Vec3& d : ways) {
-      if (own >= least) break;  // none counts less
+      if (own >= least) break;  // no shape counts less than its own radius
       const Vec3 to = s.pose.point(shape.support(d) + shape.rounding() * d), from = middle_of(s);
       const double length = (to - from).norm() - 2 * own;
       if (length > 0) least = along(from, (to - from).normalized(), length, own, least);
@@ -69,7 +70,7 @@ class Thickness {
  private:
   static Vec3 middle_of(const BodyShape& s) { return s.pose.point(s.shape->convex()->centre()); }
 
-  /// From the far end of a way inwards, from one ball to the next.
+  /// From the far end of a line inwards, from ball to ball.
   double along(const Vec3& from, const Vec3& d, double length, double own, double least) {
     for (double t = length; t > 0;) {
       const Vec3 p = from + t * d;
@@ -88,7 +89,7 @@ class Thickness {
     return least;
   }
 
-  /// How far back along a way the balls reach that hold a point and are this large.
+  /// How far back along a line the balls reach that contain a point and are at least this large.
   double held_from(const Vec3& p, const Vec3& d, double radius) const {
     double out = 0;
     for (const InnerBall& b : balls_) {
@@ -106,10 +107,10 @@ class Thickness {
   size_t middles_ = 0;
 };
 
-/// A convex shape, which is one of several.
+/// A convex shape of several.
 struct Part {
   const BodyShape* shape;
-  size_t index;  ///< among the convex ones
+  size_t index;  ///< index among the convex ones
   double own, thick;
 };
 
@@ -137,7 +138,7 @@ double found_thickness(std::span<const BodyShape> shapes) {
   return least;
 }
 
-/// All that a thickness depends on.
+/// Hash of everything that a thickness depends on.
 uint64_t content_of(std::span<const BodyShape> shapes) {
   ByteWriter out;
   for (const BodyShape& s : shapes) {

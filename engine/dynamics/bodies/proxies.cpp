@@ -16,7 +16,7 @@
 namespace tumble {
 
 double contact_margin(const RigidBody& body, double margin) {
-  // A fixed or kinematic body leaves the choice to its dynamic partner.
+  // For a pair with a fixed or kinematic body the margin of the dynamic one decides.
   if (!body.dynamic() || !std::isfinite(body.bounding_radius)) return margin;
   return std::min(margin, tolerances::margin_of_radius * body.bounding_radius);
 }
@@ -33,7 +33,7 @@ bool is_active(const RigidBody& body) {
 ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double h) {
   const double angle = body.omega.norm() * h;
   if (angle == 0) return {Vec3::Zero(), 0};
-  // No point moves farther by turning than twice its distance from the centre.
+  // By rotation no point moves farther than twice its distance from the centre.
   if (angle >= tolerances::series_turn)
     return {Vec3::Zero(), std::min(angle, 2.0) * body.bounding_radius};
   const Vec3 origin = body.pose.direction(shape.pose.x);
@@ -43,14 +43,13 @@ ShapeTurning shape_turning(const RigidBody& body, const BodyShape& shape, double
 
 namespace {
 
-/// What a tick does to all bodies alike.
+/// Parameters of a tick that are the same for all bodies.
 struct Tick {
   Vec3 gravity;
   double h, margin;
 };
 
-/// Puts the proxies of a body to their place; whether its tick may have to be taken in
-/// parts.
+/// Writes the proxies of a body; returns whether its tick may have to be divided into parts.
 bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, ProxySet& out) {
   const bool moving = is_active(body);
   const double h = tick.h;
@@ -83,12 +82,12 @@ bool put_proxies(const RigidBody& body, uint32_t slot, const Tick& tick, ProxySe
   return (mesh || body.looks_far) && body.dynamic();
 }
 
-/// How many proxies a body has.
+/// Number of proxies of a body.
 uint32_t proxies_for(const RigidBody& body) {
   return body.tree ? 1 : uint32_t(body.shapes.size());
 }
 
-/// Whether a body has several, told by where proxies begin.
+/// Whether any body has several proxies, judged by their first indices.
 bool several_of_one(const ProxySet& set) {
   return std::ranges::adjacent_find(set.first, [](uint32_t begin, uint32_t end) {
            return end - begin > 1;
@@ -102,7 +101,7 @@ void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
     for (uint32_t p = set.first[body]; p < set.first[body + 1]; ++p) out.push_back(p);
 }
 
-/// Says where proxies are, of which a body has count(body).
+/// Sets the index of each body's first proxy; a body has count(body) of them.
 template <class Count>
 void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew,
                     const Count& count) {

@@ -22,7 +22,7 @@ bool all_above(const Mat3& I, double least) {
 
 std::optional<SlenderInertia> slender_inertia(const Mat3& inertia) {
   constexpr double ratio = tolerances::needle_moment_ratio;
-  // No moment exceeds the trace; most bodies need no more than this.
+  // No moment exceeds the trace; this cheap test excludes most bodies.
   if (all_above(inertia, (1 + tolerances::principal_moments) / ratio * inertia.trace()))
     return std::nullopt;
   const PrincipalAxes principal = principal_axes(inertia);
@@ -34,13 +34,13 @@ void rotate_slender(const SlenderInertia& inertia, Quat& q, const Vec3& L, doubl
   const Vec3& I = inertia.moments;
   const double along = 1 / I.x() - 1 / I.z();
   double across = 1 / I.y() - 1 / I.z();
-  // How fast a flat needle swings about its length on either side of its greatest moment.
+  // Rate at which a flat needle swings about its length.
   const double steps = std::ceil(h * L.norm() * std::sqrt(along * std::max(across, 0.0)) /
                                  tolerances::needle_swing_step);
   if (!(steps <= most)) across = 0;
   const int n = across > 0 ? std::max(1, int(steps)) : 1;
   Quat p = q * inertia.axes;
-  // Turns about one principal axis, at the rate of that part of the energy.
+  // Rotates about one principal axis, at the rate of its part of the energy.
   const auto about = [&](const Vec3& axis, double inverse, double step) {
     const double momentum = L.dot(p * axis);
     p = p * axis_angle(axis, inverse * momentum * step);
@@ -50,7 +50,7 @@ void rotate_slender(const SlenderInertia& inertia, Quat& q, const Vec3& L, doubl
     if (across > 0) about(Vec3::UnitY(), across, h / n);
     about(Vec3::UnitX(), along, 0.5 * h / n);
   }
-  // About L it turns at one rate all the time, which commutes with the turns about its own axes.
+  // The rotation about L has one constant rate and commutes with those about the body's own axes.
   q = integrate_rotation(p * inertia.axes.conjugate(), L / I.z(), h);
 }
 

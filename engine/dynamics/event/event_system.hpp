@@ -14,8 +14,9 @@
 
 namespace tumble {
 
-/// Sets force and torque of the given bodies to the sum of all that acts on them except contacts
-/// and joints, from their poses and velocities, at time t since the beginning of the tick [s].
+/// Sets force and torque of the given bodies to the sum of the smooth forces on them (all but those
+/// of contacts, of constraints of joints and of EventDrives), from their poses and velocities, at
+/// time t since the beginning of the tick [s].
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
 /// Motion of a kinematic body whose velocity changes at a constant rate during a tick.

@@ -164,7 +164,7 @@ inline constexpr double slowing_of_friction = 0.1, same_slip_cosine = 0.1;
 /// explicit integrators are unstable at two.
 inline constexpr double stiff_rate = 0.5;
 
-// What is put right after a step.
+// Corrections after a step.
 
 /// Velocities [m/s] and distances [m] below which nothing is corrected: rounding errors in a tick,
 /// which are corrected once they add up.

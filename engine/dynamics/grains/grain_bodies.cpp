@@ -68,7 +68,7 @@ GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
   const Material& material = body.shapes[part.shape].material;
   const GrainMover& grain = grains.movers[t.grain];
   const ParticleSystem& p = tick.systems[grains.owner[t.grain].system];
-  // What a grain would move faster than bodies sleep wakes.
+  // Wakes a body that the grain would move faster than bodies sleep.
   if (body.dynamic() && body.asleep && t.gap <= 0 &&
       t.n.dot(grain.v) * body.inverse_mass > tick.settings.sleep_speed * grain.inverse_mass) {
     wake(body);
@@ -93,7 +93,7 @@ GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
   if (b.gives_way) {
     const Vec3 moment = row.arm.cross(t.n);
     along = b.inverse_mass + moment.dot(b.inverse_inertia * moment);
-    // No direction is softer than the trace of what is left says.
+    // Upper bound of the tangential compliance: the trace of the rest.
     const Mat3 lever = skew(row.arm);
     const double trace = 3 * b.inverse_mass - (lever * b.inverse_inertia * lever).trace();
     across = trace - along;

@@ -9,26 +9,26 @@
 
 namespace tumble {
 
-/// The bodies that grains touch: what they give each other, and the rows of their contacts.
+/// The bodies that grains touch: impulses between them and grains, and the rows of their contacts.
 class GrainBodies {
  public:
   /// See GrainStage::carry.
   void carry(GrainTouches& touches, BodySet& bodies, const Vec3& gravity, double h);
   std::span<const GrainLoad> carried() const { return carried_; }
   void take_back(const GrainTick& tick, GrainReport& report) const;
-  /// At the beginning of a tick: no body is known yet.
+  /// Starts a tick: no body is known yet.
   void begin_tick(const GrainTick& tick);
-  /// Rows of the contacts of a part; bodies that sleep wake where a grain hits them.
+  /// Makes the rows of the contacts of a part; sleeping bodies wake where a grain hits them.
   void make_rows(const GrainTick& tick, const GrainField& grains, const NearShapes& shapes,
                  std::span<const NearShapes::Touch> touching, GrainReport& report);
-  /// At the end of a tick: the velocities of bodies that gave way.
+  /// Ends a tick: sets the velocities of the bodies that grains moved.
   void give(const GrainTick& tick, GrainTouches& touches, GrainReport& report) const;
-  /// What rows with bodies did in a part, for the books.
+  /// Adds the effects of the rows with bodies in a part to the books.
   void count(GrainReport& report) const;
 
   std::span<GrainBody> all() { return bodies_; }
   std::span<const GrainBody> all() const { return bodies_; }
-  /// With what does not give way, and with what does; by place of the grain.
+  /// Rows with immovable bodies (walls), and with movable ones; sorted by place of the grain.
   std::span<GrainBodyRow> walls() { return walls_; }
   std::span<const GrainBodyRow> walls() const { return walls_; }
   std::span<GrainBodyRow> held() { return held_; }
@@ -40,7 +40,7 @@ class GrainBodies {
   uint32_t body_of(const GrainTick& tick, uint32_t slot);
 
   std::vector<GrainBody> bodies_;
-  std::vector<uint32_t> index_;  ///< by slot
+  std::vector<uint32_t> index_;  ///< by body slot: index in bodies_
   std::vector<GrainBodyRow> walls_, held_;
   std::vector<GrainLoad> carried_;
 };

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Bundles that are worth a thread.
+/// Least number of bundles for which threads are worth their cost.
 constexpr size_t least_bundles = 16;
 
 uint32_t bundles_for(uint32_t pairs) {
@@ -223,7 +223,7 @@ double GrainBundles::read(std::span<GrainForces> forces, double hs, Crew* crew) 
   return double(std::ranges::max(deepest));
 }
 
-/// The greatest overlap in it, or 0.
+/// Reads the forces of a bundle; returns its greatest overlap, or 0.
 float GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t k) const {
   const GrainBundle& from = bundles_[k];
   const auto force = [&](float impulse) { return float(double(impulse) / hs); };

@@ -11,22 +11,22 @@
 
 namespace tumble {
 
-/// What a tick of the grains is made of. The bodies have had theirs: they go from `start_poses` to
-/// their poses while the grains move, and only their velocities change.
+/// Inputs of a tick of the grains. The bodies have been moved already: while the grains move,
+/// bodies go from `start_poses` to their present poses, and only their velocities change.
 struct GrainTick {
   std::span<ParticleSystem> systems;  ///< by slot
   const HandlePool<ParticleSystemTag>& ids;
   BodySet& bodies;
   std::span<const Pose> start_poses;  ///< by body slot
   Vec3 gravity;                       ///< [m/s2]
-  double h = 0;                       ///< [s]
+  double h = 0;                       ///< length of the tick [s]
   const RealtimeSettings& settings;
   Crew* crew = nullptr;
 };
 
 /// The grains of all systems in one list; index i of each array is the same grain, its *place*.
-/// They stand along a space-filling curve through where the tick found them, so that what is near
-/// in space is near in memory; their order by ascending keys gives each an *ordinal* besides.
+/// Grains are stored along a space-filling curve through their positions at the start of the tick,
+/// so that neighbours in space are near in memory. Their rank by ascending keys is their *ordinal*.
 struct GrainField {
   struct Owner {
     uint32_t system, index;
@@ -35,7 +35,7 @@ struct GrainField {
   std::vector<uint64_t> key;
   std::vector<GrainPoint> points;
   std::vector<GrainMover> movers;
-  std::vector<Vec3> acceleration;  ///< 0 while they sleep [m/s2]
+  std::vector<Vec3> acceleration;  ///< 0 while asleep [m/s2]
   std::vector<uint8_t> asleep;
   std::vector<uint32_t> ordinal;   ///< by place
   std::vector<uint32_t> place_of;  ///< by ordinal
@@ -44,14 +44,14 @@ struct GrainField {
   double least_radius = 0, largest_radius = 0;  ///< [m]
 
   size_t size() const { return points.size(); }
-  /// Refuses places that are not finite.
+  /// Reads the grains from the systems. Error if a position is not finite.
   Status gather(const GrainTick& tick);
   void wake(const GrainTick& tick, size_t i);
-  /// Places and velocities back to the systems.
+  /// Writes positions and velocities back to the systems.
   void give_back(const GrainTick& tick) const;
-  /// Place of the grain with this key, or size().
+  /// The place of the grain with this key, or size().
   size_t find(std::span<const ParticleSystem> systems, uint64_t grain) const;
-  /// Speed below which a grain of this radius rests in the mean [m/s].
+  /// Averaged speed below which a grain of this radius rests [m/s].
   static double rest_speed(const GrainTick& tick, double radius);
 
  private:

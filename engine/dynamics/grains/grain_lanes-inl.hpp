@@ -1,4 +1,5 @@
-// Vectors of three over lanes in double, and grains read by lane. Included once per target.
+// Vectors of three over lanes in double precision, and grains read by lane. Included once per
+// target.
 #if defined(TUMBLE_GRAIN_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TUMBLE_GRAIN_LANES_INL
 #undef TUMBLE_GRAIN_LANES_INL
@@ -17,7 +18,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using GrainD = hn::CappedTag<double, 8>;
 using GrainSingle = hn::Rebind<float, GrainD>;
 using GrainF = hn::Vec<GrainD>;
-constexpr size_t grain_step = hn::MaxLanes(GrainD());  ///< a divisor of grain_lanes
+/// Lanes computed at once; divides grain_lanes.
+constexpr size_t grain_step = hn::MaxLanes(GrainD());
 constexpr uint32_t every_lane = (1u << grain_step) - 1;
 
 HWY_INLINE GrainF every_grain(double x) {
@@ -67,7 +69,7 @@ HWY_INLINE void store_grain(const GrainV& v, GrainDoubles& to, size_t lane) {
   hn::Store(v.z, GrainD(), to[2].data() + lane);
 }
 
-/// 1 / x in single precision, or 0 where x is 0.
+/// 1 / x to single precision, or 0 where x is 0.
 HWY_INLINE GrainF rough_inverse(GrainF x) {
   const GrainSingle d;
   const auto single = hn::DemoteTo(d, x), one = hn::Set(d, 1.0f);
@@ -75,7 +77,7 @@ HWY_INLINE GrainF rough_inverse(GrainF x) {
   const auto inverse = hn::Div(one, hn::IfThenElse(positive, single, one));
   return hn::PromoteTo(GrainD(), hn::IfThenElseZero(positive, inverse));
 }
-/// 1 / sqrt(x) in single precision, or 0 where x is 0.
+/// 1 / sqrt(x) to single precision, or 0 where x is 0.
 HWY_INLINE GrainF rough_inverse_root(GrainF x) {
   const GrainSingle d;
   const auto single = hn::DemoteTo(d, x), one = hn::Set(d, 1.0f);
@@ -84,7 +86,7 @@ HWY_INLINE GrainF rough_inverse_root(GrainF x) {
   return hn::PromoteTo(GrainD(), hn::IfThenElseZero(positive, inverse));
 }
 
-/// Two consecutive numbers of each of the lanes: one of all in `first`, the other in `second`.
+/// Two consecutive numbers of each lane: the first of all lanes in `first`, the other in `second`.
 struct GrainTwo {
   GrainF first, second;
 };
@@ -99,7 +101,7 @@ HWY_INLINE void write_two(const GrainTwo& t, double* const* to, uint32_t mask, s
   to[0][offset + 1] = hn::GetLane(t.second);
 }
 #else
-/// Two numbers of every second lane, from `lane` on: a block of 16 bytes for each.
+/// Loads two numbers at `offset` of the lanes `lane`, `lane` + 2, ...: 16 bytes for each.
 template <class D>
 HWY_INLINE hn::Vec<D> read_grain_blocks(D d, const double* const* from, size_t lane,
                                         size_t offset) {
@@ -128,7 +130,7 @@ HWY_INLINE GrainTwo read_two(const double* const* from, size_t offset) {
   const GrainF odd = read_grain_blocks(d, from, 1, offset);
   return {hn::InterleaveLower(d, even, odd), hn::InterleaveUpper(d, even, odd)};
 }
-/// Lanes whose bit is not set are left alone.
+/// Lanes whose bit in `mask` is not set are not written.
 HWY_INLINE void write_two(const GrainTwo& t, double* const* to, uint32_t mask, size_t offset) {
   const GrainD d;
   write_grain_blocks(d, hn::InterleaveLower(d, t.first, t.second), to, mask, 0, offset);
@@ -136,11 +138,11 @@ HWY_INLINE void write_two(const GrainTwo& t, double* const* to, uint32_t mask, s
 }
 #endif
 
-/// Velocities of the grains of the lanes, and their place in memory.
+/// Velocities of the grains of the lanes, and their addresses.
 struct GrainMoving {
   std::array<double*, grain_step> at;
   GrainV v, spin;
-  GrainF mass, moment;  ///< inverse
+  GrainF mass, moment;  ///< inverse mass, inverse moment of inertia
 
   HWY_INLINE GrainMoving(GrainMover* movers, const uint32_t* index) {
     for (size_t k = 0; k < grain_step; ++k) at[k] = reinterpret_cast<double*>(movers + index[k]);
@@ -168,7 +170,7 @@ struct GrainMoving {
 };
 static_assert(sizeof(GrainMover) == 64 && sizeof(GrainPoint) == 32);
 
-/// Their places in space.
+/// Positions and radii of the grains of the lanes.
 struct GrainSpot {
   std::array<double*, grain_step> at;
   GrainV x;

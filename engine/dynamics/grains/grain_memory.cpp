@@ -104,7 +104,7 @@ void GrainMemory::list_beside(const GrainField& grains, std::span<const GrainBod
   const auto force = [hs](const Vec3& v) {
     return std::array{float(v[0] / hs), float(v[1] / hs), float(v[2] / hs)};
   };
-  // What is kept stands nearly always in order already: grains that sleep do not change places.
+  // Usually sorted already, since sleeping grains do not change places.
   if (!std::ranges::is_sorted(kept_, before)) std::ranges::sort(kept_, before);
   beside_ = kept_;
   const auto middle = std::ptrdiff_t(beside_.size());
@@ -143,7 +143,7 @@ void GrainMemory::store(const GrainTick& tick, const GrainField& grains, const G
   const auto beside = [this](size_t place) {
     return size_t(std::ranges::lower_bound(beside_, place, {}, &Beside::place) - beside_.begin());
   };
-  // How many each thread's piece has, then they themselves.
+  // First the number of contacts of each thread's range, then the contacts.
   std::array<size_t, chunk_count> begins{};
   for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
     size_t count = beside(last) - beside(first);

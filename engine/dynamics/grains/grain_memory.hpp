@@ -6,21 +6,22 @@
 
 namespace tumble {
 
-/// What contacts remember from part to part and tick to tick.
+/// Forces of contacts that are remembered from part to part and tick to tick.
 class GrainMemory {
  public:
-  /// Before a part: finds the forces of its pairs, puts those of rows with bodies into them, for
-  /// sub-steps of hs seconds, and tells apart what is left: contacts of grains that sleep stay,
-  /// grains that sleep wake where they leaned on what is gone.
+  /// Before a part: finds the remembered forces of its pairs, and sets the impulses of rows with
+  /// bodies for sub-steps of hs seconds. Of remembered contacts that are not among these, those
+  /// between sleeping grains are kept; the others are lost, and sleeping grains that leaned on one
+  /// must wake.
   void recall(const GrainTick& tick, const GrainField& grains, const GrainTouches& touches,
               const GrainPairList& pairs, std::span<GrainBodyRow> walls,
               std::span<GrainBodyRow> held, double hs);
-  /// Of each pair: as recalled, and to be put in their place before they are stored.
+  /// By pair: as recalled; to be overwritten with the new forces before store().
   std::span<GrainForces> forces() { return forces_; }
   std::span<const GrainForces> forces() const { return forces_; }
-  /// Grains whose hold has gone, by place.
+  /// Places of grains that have lost a contact.
   std::span<const uint32_t> lost() const { return lost_; }
-  /// After it: what presses.
+  /// After a part: stores the contacts that press.
   void store(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
              std::span<const GrainBodyRow> walls, std::span<const GrainBodyRow> held, double hs,
              GrainTouches& touches);
@@ -34,12 +35,12 @@ class GrainMemory {
   void recall_pairs(const GrainTick& tick, const GrainField& grains,
                     std::span<const GrainTouch> touches, const GrainPairList& pairs);
   void recall_row(std::span<const GrainTouch> touches, double hs, GrainBodyRow& row);
-  /// A contact that is none of a pair of the part.
+  /// A contact that is not among the pairs of the part.
   struct Beside {
-    uint32_t place;  ///< of its grain `a`
+    uint32_t place;  ///< place of its grain `a`
     GrainTouch touch;
   };
-  /// What becomes of contacts that the part does not have.
+  /// What becomes of remembered contacts that are not among those of the part.
   struct Left {
     std::vector<Beside> kept;
     std::vector<uint32_t> lost;
@@ -48,14 +49,14 @@ class GrainMemory {
                        Left& left);
   void list_beside(const GrainField& grains, std::span<const GrainBodyRow> walls,
                    std::span<const GrainBodyRow> held, double hs);
-  /// Calls f(touch) for all of the places [first, last) that are to be stored, in their order.
+  /// Calls f(touch) for all contacts of the places [first, last) that are to be stored, in order.
   template <class F>
   void each_of(const GrainField& grains, const GrainPairList& pairs, size_t first, size_t last,
                const F& f) const;
 
-  std::vector<Span> own_;            ///< by place: touches of which the grain is the first
+  std::vector<Span> own_;            ///< by place: range of touches with that grain as `a`
   std::vector<GrainForces> forces_;  ///< by pair
-  std::vector<uint8_t> taken_;       ///< by touch
+  std::vector<uint8_t> taken_;       ///< by touch: belongs to a pair or row of the part
   std::vector<Beside> kept_, beside_;
   std::vector<GrainTouch> next_;
   std::vector<uint32_t> lost_;

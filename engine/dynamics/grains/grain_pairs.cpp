@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Cells that are worth a thread.
+/// Least number of cells for which threads are worth their cost.
 constexpr size_t least_cells = 16;
 
 }  // namespace
@@ -87,7 +87,7 @@ void GrainPairs::rouse(const GrainTick& tick, GrainField& grains) {
     }
 }
 
-/// Pairs of which the k-th grain, in the order of the cells, has the lower key.
+/// Finds the pairs in which the k-th grain, in the order of cells, has the lower key.
 void GrainPairs::find_of(const GrainField& grains, double h, uint32_t k, Search& search) {
   const uint32_t i = cells_.place(k);
   const size_t begin = search.found.size();

@@ -6,44 +6,45 @@
 
 namespace tumble {
 
-/// Two grains that touch or may: `a` has the lower key.
+/// Two grains that touch, or may do so within a part of a tick; `a` has the lower key.
 struct GrainPair {
   uint32_t a, b;  ///< places
 };
 
-/// Pairs in the order of the places of `a`, those of one by ascending keys of `b`.
+/// Pairs sorted by the place of `a`, then by the key of `b`.
 struct GrainPairList {
-  static constexpr uint32_t none = ~uint32_t{0};  ///< in place of an index of a pair or a touch
+  static constexpr uint32_t none = ~uint32_t{0};  ///< stands for an index of a pair or touch
 
   std::vector<GrainPair> all;
   std::vector<uint32_t> first;  ///< by place of a: index of its first pair; then the end
 };
 
-/// Which grains touch each other, or may within a part of a tick.
+/// Finds grains that touch each other, or may do so within a part of a tick.
 class GrainPairs {
  public:
-  /// Lists pairs of which one at least is awake: those that are as near as their own approach can
-  /// close in the part of `h` seconds. Before that grains wake that something touches which moves.
+  /// Lists pairs at least one of which is awake and whose gap their relative motion could close in
+  /// the part of `h` seconds. First wakes sleeping grains that a moving one touches.
   Status find(const GrainTick& tick, GrainField& grains, double h, GrainPairList& out);
 
  private:
-  /// What a thread works with.
+  /// Work of one thread.
   struct Search {
     GrainCells::Near near;
-    std::vector<GrainPair> found;  ///< of one grain after the other, in the order of the cells
+    std::vector<GrainPair> found;  ///< grain by grain, in the order of the cells
     std::vector<uint32_t> roused;
-    uint32_t first = 0, last = 0;  ///< which grains, in that order
+    uint32_t first = 0, last = 0;  ///< range of grains in that order
   };
   Status sort(const GrainTick& tick, const GrainField& grains, double h);
-  /// f(search, cell), with what is near it, for all cells for whose index wants() says so.
+  /// Calls f(search, cell) with the grains near it, for all cells with wants(index of the cell).
   template <class Wants, class F>
   void each_cell(Crew* crew, const Wants& wants, const F& f);
   void rouse(const GrainTick& tick, GrainField& grains);
   void find_of(const GrainField& grains, double h, uint32_t k, Search& search);
 
   GrainCells cells_;
-  std::vector<double> closes_;    ///< by place: what it may close in the part, relative to all [m]
-  std::vector<uint32_t> counts_;  ///< of pairs, by place of a
+  /// By place: how far it may move in the part relative to the mean of all grains [m]
+  std::vector<double> closes_;
+  std::vector<uint32_t> counts_;  ///< by place of a: number of pairs
   std::vector<Search> searches_;  ///< by chunk
 };
 

@@ -16,7 +16,7 @@ GrainRest& rest_of(const GrainTick& tick, const GrainField& grains, size_t i) {
 
 }  // namespace
 
-/// For how long the awake have been slow; whether any has been for long enough.
+/// Updates for how long awake grains have been slow; returns whether any has been for long enough.
 bool GrainRestWatch::time_slow(const GrainTick& tick, const GrainField& grains,
                                std::span<const Vec3> start) {
   const double share = tick.h / (tick.h + tolerances::grain_watch);
@@ -47,7 +47,7 @@ void GrainRestWatch::find_held(const GrainTick& tick, const GrainField& grains,
                                const GrainPairList& pairs, std::span<const GrainForces> forces,
                                const GrainBodies& bodies) {
   hold_.assign(grains.size(), Hold::none);
-  // What is added by "or" does not depend on the order of threads.
+  // Bitwise "or" gives the same result for any order of threads.
   const auto grasp = [this](size_t i, bool restless) {
     const uint8_t added = restless ? Hold::restless : Hold::firm;
     const std::atomic_ref<uint8_t> hold(hold_[i]);

@@ -15,7 +15,7 @@ void copy_places(const GrainField& grains, std::vector<Vec3>& to) {
   for (size_t i = 0; i < grains.size(); ++i) to[i] = grains.points[i].x;
 }
 
-/// Whether all sleep, as after the last tick, and nothing moves that could wake them.
+/// Whether all grains sleep, as after the last tick, and nothing moves that could wake them.
 bool all_rest(const GrainTick& tick, const GrainTouches& touches) {
   size_t count = 0;
   for (uint32_t k = 0; k < tick.systems.size(); ++k) {
@@ -28,7 +28,7 @@ bool all_rest(const GrainTick& tick, const GrainTouches& touches) {
                               [](const RigidBody& b) { return b.awake() && !b.shapes.empty(); });
 }
 
-/// What the settings and all systems ask for: grains of one system lie among those of another.
+/// The greatest number that settings or any system ask for, since grains of different systems mix.
 int substeps_of_tick(const GrainTick& tick) {
   int most = tick.settings.substeps;
   for (uint32_t k = 0; k < tick.systems.size(); ++k)
@@ -46,7 +46,7 @@ bool GrainStage::asked_for(const HandlePool<ParticleSystemTag>& ids,
   return false;
 }
 
-/// Bounds on how fast any two grains approach each other.
+/// Upper bound on the approach speed of any two grains [m/s].
 double GrainStage::closing_speed() const {
   Aabb v;
   for (const GrainMover& m : grains_.movers) v.include(m.v);
@@ -59,7 +59,7 @@ void GrainStage::wake_again(const GrainTick& tick, size_t i) {
   --grains_.sleepers;
 }
 
-/// Grains have gone since the last tick: those that leaned on them wake.
+/// If grains have been removed since the last tick, wakes those that leaned on them.
 void GrainStage::wake_lost(const GrainTick& tick, const GrainTouches& touches) {
   if (touches.grains() == grains_.size() || grains_.sleepers == 0) return;
   for (const GrainTouch& t : touches.all()) {
@@ -157,7 +157,7 @@ void GrainStage::count(const GrainPairWork& work, GrainReport& report) const {
   bodies_.count(report);
 }
 
-/// Grow older; forces have had their say.
+/// Adds to the grains' ages, and clears their forces.
 void GrainStage::age(const GrainTick& tick) const {
   for (uint32_t k = 0; k < tick.systems.size(); ++k) {
     if (!tick.ids.alive(k) || !tick.systems[k].grains) continue;

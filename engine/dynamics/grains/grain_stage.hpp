@@ -10,15 +10,16 @@
 
 namespace tumble {
 
-/// Moves grains by one tick of the realtime stepper (README.md). What a tick needs of the one
-/// before is in the systems and in the touches; the rest is memory.
+/// Moves grains by one tick of the realtime stepper (README.md). What the next tick needs is stored
+/// in the systems and in the touches; members are scratch memory.
 class GrainStage {
  public:
   static bool asked_for(const HandlePool<ParticleSystemTag>& ids,
                         std::span<const ParticleSystem> systems);
-  /// Before the bodies have their tick: they are carried by what grains gave them in the last one,
-  /// up to their weight, as if it went on. step() takes it back and gives what they give now.
-  /// Without it a body on grains would fall a little in every tick.
+  /// To be called before the bodies move: applies to bodies the impulses that grains gave them in
+  /// the last tick, up to their weight, as a prediction. step() takes it back and applies the
+  /// actual impulses. Without the prediction a body that lies on grains would fall a little in
+  /// every tick.
   void carry(GrainTouches& touches, BodySet& bodies, const Vec3& gravity, double h) {
     bodies_.carry(touches, bodies, gravity, h);
   }

@@ -1,7 +1,7 @@
-// Which grains of the cells about a cell are near a grain, a vector of them at a time.
+// Finds grains near a cell, and near a grain, a vector of them at a time.
 #include "engine/dynamics/grains/near_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/grains/near_kernels.cpp"
@@ -30,7 +30,7 @@ size_t AddNearCell(const GrainColumns& from, uint32_t begin, uint32_t end, const
     const auto z = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.z + k), cz));
     const auto farthest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
     const auto near = hn::And(hn::Le(farthest, most), hn::FirstN(lanes, end - k));
-    // Writes as many as there are lanes: some processors take very long to write fewer.
+    // Writes full vectors: on some processors partial writes are very slow.
     const Compressor<decltype(lanes)> compress(near);
     hn::StoreU(compress(x), lanes, to.x + size);
     hn::StoreU(compress(y), lanes, to.y + size);

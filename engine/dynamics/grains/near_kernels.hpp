@@ -4,40 +4,41 @@
 
 namespace tumble {
 
-/// Grains in the order of the cells of a grid, a number of each in an array of its own; arrays are
-/// longer by `grain_batch` than there are grains.
+/// Grains in the order of the cells of a grid, as separate arrays, which are longer than the number
+/// of grains by `grain_batch`.
 struct GrainColumns {
   const double *x, *y, *z;  ///< [m]
-  const float* extent;      ///< radius, and what the grain may close on others [m]
+  const float* extent;      ///< radius plus how far the grain may move towards others [m]
   const uint32_t* place;
   const int32_t* ordinal;
 };
 
-/// Grains near a cell, relative to its centre, filled up to a multiple of `grain_batch` with what
-/// is far from everything.
+/// Grains near a cell, relative to its centre, padded to a multiple of `grain_batch` with entries
+/// far from everything.
 struct GrainsNearCell {
   float *x, *y, *z, *extent;  ///< [m]
   uint32_t* place;
   int32_t* ordinal;
 };
 
-/// At least as many as a vector has lanes on any machine.
+/// No less than the number of lanes of a vector on any machine.
 constexpr size_t grain_batch = 16;
 
-/// Writes those of [begin, end) that are in the cube about `centre` whose faces are `half` metres
-/// from it, in their order, from `size` on; gives the new size. There is room for all and a batch.
+/// Appends those grains of [begin, end) that lie in the cube about `centre` of half edge `half`
+/// [m], in order, from index `size` on; returns the new size. `to` must have room for all of them
+/// and one batch.
 size_t add_near_cell(const GrainColumns& from, uint32_t begin, uint32_t end, const double* centre,
                      float half, const GrainsNearCell& to, size_t size);
 
-/// What a search looks for: grains whose ordinals are above `after`, and which are no farther
-/// from a point than the sum of their extents and its own.
+/// A search for grains whose ordinals are above `after`, and whose distance from a point is at most
+/// the sum of their extent and that of the search.
 struct NearGrain {
   float x, y, z, extent;  ///< relative to the centre of the cell [m]
   int32_t after;
 };
 
-/// Indices of what is found among the first `padded`, in their order; how many. `out` has room for
-/// all and a batch.
+/// Writes the indices of the grains found among the first `padded`, in order; returns their number.
+/// `out` must have room for all and one batch.
 size_t find_near(const GrainsNearCell& among, size_t padded, const NearGrain& grain, uint32_t* out);
 
 }  // namespace tumble

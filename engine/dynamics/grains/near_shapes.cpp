@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// What a shape covers on its way; a point leaves the chord of its path by at most lever angle^2 /
-/// 8.
+/// Bounds of a shape on its path; a point deviates from the chord of its path by at most lever
+/// angle^2 / 8.
 Aabb swept_shape_bounds(const Shape& shape, const Pose& from, const Pose& to, double angle,
                         double lever) {
   Aabb all = shape.bounds(from);
@@ -101,8 +101,7 @@ bool NearShapes::Known::operator==(const Known& other) const {
          pose.q.coeffs() == other.pose.q.coeffs();
 }
 
-/// What is known of distances holds while the shapes are the same, and where the last tick left
-/// them.
+/// Clearances stay valid as long as the shapes are the same, and are where the last tick left them.
 void NearShapes::forget_what_changed(const GrainTick& tick) {
   before_.clear();
   for (const Part& part : parts_) {
@@ -187,7 +186,7 @@ void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t
     if (clear.key == grains.key[i] && gone + reach < clear.distance) return;
     const size_t before = found.size();
     find(tick, placed, grains, i, h, margin, memory, found);
-    // Where shapes are known to be near they will be asked again anyway.
+    // Near shapes the clearance would be useless: the grain will search again anyway.
     const bool any = found.size() > before;
     clear = {grains.key[i], x, moved_ - longest_way_,
              any ? 0 : clearance(tick, placed, x, tolerances::grain_clearance * r)};

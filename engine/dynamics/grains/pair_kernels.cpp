@@ -3,7 +3,7 @@
 
 #include "engine/dynamics/grains/tolerances.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/grains/pair_kernels.cpp"
@@ -20,12 +20,12 @@ struct GrainSides {
 
   HWY_INLINE GrainSides(const GrainPairView& in, const GrainBundle& c, size_t lane)
       : a(in.movers, c.a.data() + lane), b(in.movers, c.b.data() + lane) {}
-  /// Velocity of b's surface relative to that of a, where they meet.
+  /// Velocity of b's surface relative to a's at the contact.
   HWY_INLINE GrainV slip(const GrainV& way, GrainF share) const {
     return b.v - a.v - cross(a.spin + (every_grain(1) - share) * (b.spin - a.spin), way);
   }
-  /// Impulse P on b and -P on a, there. Whatever P is, what one gains the other loses, of momentum
-  /// and of angular momentum.
+  /// Applies an impulse P on b and -P on a at the contact; conserves momentum and angular momentum
+  /// for any P.
   HWY_INLINE void push(const GrainV& P, const GrainV& way, GrainF share) {
     const GrainV moment = cross(way, P);
     a.v = a.v - a.mass * P;
@@ -43,9 +43,8 @@ struct GrainSides {
   }
 };
 
-/// Where the contacts of some lanes are. The normal is a unit vector in single precision: it says
-/// what impulses act along and where motion is measured, and what it is off by is corrected by
-/// the sweeps that follow.
+/// Places of the contacts of some lanes. The normal is a unit vector in single precision only:
+/// impulses act along it and velocities are measured along it, and the sweeps correct its error.
 struct GrainContactPlace {
   GrainV way, n;
   GrainF share, gap;
@@ -60,12 +59,12 @@ struct GrainContactPlace {
     const GrainV way = b.x - a.x;
     const GrainF distance = hn::Sqrt(dot(way, way)), half = every_grain(0.5);
     const GrainF gap = distance - (a.radius + b.radius);
-    // (r_a + gap / 2) / distance.
+    // share = (r_a + gap / 2) / distance.
     const GrainF share = half + half * (a.radius - b.radius) * rough_inverse(distance);
     store_grain(way, c.way, lane);
     store_grain(share, c.share, lane);
     store_grain(gap, c.gap, lane);
-    // What is kept is what counts from now on, also here.
+    // The stored, rounded values are used here too.
     return {way, rough_direction(way), load_grain(c.share, lane), load_grain(c.gap, lane)};
   }
 
@@ -95,7 +94,7 @@ HWY_INLINE GrainF inverse_or_zero(GrainF x) {
   return hn::IfThenElseZero(positive, every_grain(1) / hn::IfThenElse(positive, x, every_grain(1)));
 }
 
-/// x, or as much of it as is not longer than `most`.
+/// x, shortened to the length `most` if it is longer.
 HWY_INLINE GrainV shortened(const GrainV& x, GrainF most) {
   const GrainF size2 = dot(x, x);
   const auto longer = hn::Gt(size2, most * most);
@@ -103,7 +102,8 @@ HWY_INLINE GrainV shortened(const GrainV& x, GrainF most) {
   return hn::IfThenElse(longer, most * rough_inverse_root(size2), every_grain(1)) * x;
 }
 
-/// Solid balls have 2/5 m r^2: slip at the surfaces meets 7/2 of the inverse masses.
+/// Solid balls have the moment of inertia 2/5 m r^2, so that the inverse mass for slip at their
+/// surfaces is 7/2 of the sum of inverse masses.
 HWY_INLINE GrainF slip_inverse(GrainF masses) {
   return every_grain(3.5) * masses;
 }
@@ -150,7 +150,7 @@ void WarmStartPairs(const GrainPairView& in, GrainRange range, GrainWork& work) 
   }
 }
 
-/// Torques against rolling and spinning; their work.
+/// Rolling and torsional friction; returns its work.
 HWY_INLINE GrainF resist_turning(GrainSides& sides, const GrainV& n, GrainF push, GrainTurning& t,
                                  size_t lane) {
   const GrainF zero = every_grain(0), moments = sides.a.moment + sides.b.moment;
@@ -188,7 +188,7 @@ HWY_INLINE void sweep_lanes(const GrainPairView& in, uint32_t k, size_t lane, do
   const GrainV change = next - rub;
   done.rubbed =
       done.rubbed + dot(change, across) + half * dot(change, change) * slip_inverse(masses);
-  // Normals: at most the gap may close. Friction changes nothing along them but by rounding.
+  // Normals: the gap may at most close. Friction has no effect along them except by rounding.
   const GrainF un_now = un + dot(n, change) * masses;
   const GrainF speed = zero - hn::Max(place.gap, zero) * every_grain(inverse_hs);
   const GrainF pressed = hn::Max(zero, push - mass * (un_now - speed));

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// What rows of pairs act on, and they themselves.
+/// The arrays that the kernels for pairs work on.
 struct GrainPairView {
   GrainPoint* points;
   GrainMover* movers;
@@ -12,27 +12,28 @@ struct GrainPairView {
   GrainBounce* bounces;    ///< by bundle, or null
 };
 
-/// Work done in a part, in lanes that are summed up at its end: of normal impulses, and of friction
-/// and torques [J].
+/// Work in a part, by lane, to be summed at its end: of normal impulses, and of friction and
+/// torques [J].
 struct GrainWork {
   alignas(64) std::array<double, grain_lanes> lost{}, rubbed{};
 };
 
-// The inner loops over bundles, on the widest vectors that the machine has. Lanes never mix, and
-// nothing is fused or approximated, so that all machines get the same bits. Each works through a
-// range of bundles in order.
+// The inner loops over bundles, on the widest vectors of the machine. Lanes are independent and
+// nothing is fused or approximated, so that all machines give the same bits. Each function
+// processes a range of bundles in order.
 
-/// Ways, gaps and shares at the present places.
+/// Updates directions, gaps and contact positions to the present positions of grains.
 void follow_pairs(const GrainPairView& in, GrainRange range);
-/// The impulses of the sub-step before, turned into the present tangent planes.
+/// Applies the impulses of the previous sub-step, rotated into the present tangent planes.
 void warm_start_pairs(const GrainPairView& in, GrainRange range, GrainWork& work);
-/// Rolling and torsion, friction, normals; with `follows` at the present places.
+/// One sweep: rolling and torsional friction, friction, normals; if `follows`, at the present
+/// positions.
 void sweep_pairs(const GrainPairView& in, GrainRange range, double inverse_hs, bool follows,
                  GrainWork& work);
-/// Moves grains apart that overlap, without giving them speed: sweeps that have not converged would
-/// turn such speed into bouncing.
+/// Moves overlapping grains apart without changing velocities: unconverged sweeps would turn such
+/// velocities into bouncing.
 void part_overlapping_pairs(const GrainPairView& in, GrainRange range);
-/// Restitution where a lane has a speed.
+/// Applies restitution in lanes that have a restitution speed.
 void bounce_pairs(const GrainPairView& in, GrainRange range, GrainWork& work);
 
 }  // namespace tumble

@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-/// Bundles of a colour that are worth a thread.
+/// Least number of bundles of a colour for which threads are worth their cost.
 constexpr size_t least_of_colour = 16;
 
 class SweepGrains {
@@ -28,7 +28,8 @@ class SweepGrains {
         least_of_colour);
   }
 
-  /// What acts between blocks starts first: then each block can start and be swept at once.
+  /// Contacts between blocks are warm-started first; then each block can be warm-started and swept
+  /// at once.
   void substep() {
     const double rate = 1 / hs_;
     accelerate();
@@ -47,7 +48,7 @@ class SweepGrains {
     time_ += hs_;
     between([&](GrainRange range, GrainWork&) { part_overlapping_pairs(in_, range); });
     with_walls([&](std::span<GrainBodyRow> rows) { part_overlapping(walls_, rows, time_); });
-    // What was a contact at one place is one at another now: impulses act where the grains are.
+    // Contacts have moved with the grains: impulses act at their present places.
     blocks([&](size_t, GrainRange range, GrainWork& work) {
       sweep_pairs(in_, range, rate, true, work);
     });
@@ -81,7 +82,7 @@ class SweepGrains {
       for (size_t i = first; i < last; ++i) r_.movers[i].v += hs_ * r_.acceleration[i];
     });
   }
-  /// What touches nothing flies on an exact parabola.
+  /// Grains that touch nothing move along exact parabolas.
   void move(size_t block) {
     const size_t first = block * grain_block,
                  last = std::min(first + grain_block, r_.points.size());
@@ -91,7 +92,7 @@ class SweepGrains {
       r_.points[i].x += hs_ * v;
     }
   }
-  // Each pass over all asks whether to go on; what a stopped one leaves is thrown away.
+  // Every pass over all contacts checks for a stop; the results of a stopped tick are discarded.
   template <class F>
   void blocks(const F& f) {
     if (stop_requested()) return;
@@ -115,13 +116,13 @@ class SweepGrains {
           least_of_colour);
     }
   }
-  /// Bodies that give way first, one row after the other; the rest by grains.
+  /// Rows with movable bodies first, one after the other; then the others, in parallel by grain.
   template <class F>
   void with_walls(const F& f) {
     if (stop_requested()) return;
     f(r_.held);
     for_chunks(crew_, r_.walls.size(), [&](size_t, size_t first, size_t last) {
-      // Rows of one grain stay together.
+      // Rows of one grain must be in one range.
       const auto start = [&](size_t k) {
         while (k > 0 && k < r_.walls.size() && r_.walls[k].a == r_.walls[k - 1].a) ++k;
         return k;
@@ -136,8 +137,8 @@ class SweepGrains {
   GrainWalls walls_;
   double hs_;
   Crew* crew_;
-  std::vector<GrainWork> work_;  ///< by block; then by chunk, of what is between blocks
-  double time_ = 0;              ///< since the beginning of the part [s]
+  std::vector<GrainWork> work_;  ///< by block; then by chunk, for contacts between blocks
+  double time_ = 0;              ///< time since the beginning of the part [s]
 };
 
 }  // namespace

@@ -8,28 +8,28 @@
 
 namespace tumble {
 
-/// All that a part of a tick solves.
+/// Everything that is solved in a part of a tick.
 struct GrainSystemRows {
   std::span<GrainPoint> points;
   std::span<GrainMover> movers;
-  std::span<const Vec3> acceleration;  ///< 0 while they sleep [m/s2]
-  std::span<const uint8_t> touched;    ///< has a row
+  std::span<const Vec3> acceleration;  ///< 0 while asleep [m/s2]
+  std::span<const uint8_t> touched;    ///< by grain: has a contact
   GrainBundles& pairs;
   std::span<GrainBody> bodies;
-  std::span<GrainBodyRow> walls;     ///< with what does not give way; by grain
-  std::span<GrainBodyRow> held;      ///< with bodies that do
+  std::span<GrainBodyRow> walls;     ///< with immovable bodies; sorted by grain
+  std::span<GrainBodyRow> held;      ///< with movable bodies
   double restitution_threshold = 0;  ///< [m/s]
 };
 
-/// What pairs of grains lost in a part [J].
+/// Energy lost at contacts of two grains in a part [J].
 struct GrainPairWork {
   double lost = 0, rubbed = 0;  ///< by normal impulses; by friction and torques
 };
 
-/// `substeps` sub-steps of hs seconds each: warm start, a sweep over velocities, motion, a sweep
-/// over positions that works off overlap, one more over velocities; at the end restitution, once.
-/// Projected Gauss-Seidel: blocks side by side, then what is between them by colours, then rows
-/// with bodies. Those that give way are solved one after the other.
+/// Takes `substeps` sub-steps of hs seconds each: warm start, a sweep over velocities, motion, a
+/// sweep over positions that reduces overlap, one more sweep over velocities; after the last,
+/// restitution. Projected Gauss-Seidel: blocks in parallel, then contacts between blocks colour by
+/// colour, then rows with bodies, those with movable bodies one after the other.
 GrainPairWork solve_grains(const GrainSystemRows& rows, int substeps, double hs, Crew* crew);
 
 }  // namespace tumble

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// One row, and what it acts on.
+/// One row with its grain and body.
 struct WallSolver {
   GrainBodyRow& row;
   GrainMover& a;
@@ -69,7 +69,7 @@ struct WallSolver {
     row.rubbed += change.dot(across) + 0.5 * change.squaredNorm() / row.slip_mass;
     push(change);
   }
-  /// Until the surfaces part with `speed` at least.
+  /// Applies a normal impulse so that the surfaces separate at no less than `speed`.
   void part_with(double speed) const {
     const double u = row.n.dot(slip());
     const double next = std::max(0.0, row.push - row.normal_mass * (u - speed));
@@ -82,7 +82,7 @@ struct WallSolver {
   void sweep(double inverse_hs) const {
     if (row.turn_mass > 0) resist_turning();
     resist_slip();
-    // At most the gap may close.
+    // The gap may at most close.
     part_with(row.gap > 0 ? -row.gap * inverse_hs : row.lift * std::max(0.0, -row.gap - row.slop));
   }
 };

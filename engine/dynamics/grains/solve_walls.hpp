@@ -5,24 +5,24 @@
 
 namespace tumble {
 
-/// What grains and bodies are while rows between them are solved.
+/// The grains and bodies of rows between them.
 struct GrainWalls {
   std::span<GrainPoint> points;
   std::span<GrainMover> movers;
   std::span<GrainBody> bodies;
 };
 
-/// Rows of grains with bodies, one after the other: the steps of a sub-step (solve_grains.hpp). The
-/// impulses of the sub-step before, turned into the present tangent plane.
+/// Rows of grains with bodies, one after the other, in the steps of a sub-step (solve_grains.hpp).
+/// Applies the impulses of the previous sub-step, rotated into the present tangent plane.
 void warm_start(const GrainWalls& in, std::span<GrainBodyRow> rows);
 void sweep(const GrainWalls& in, std::span<GrainBodyRow> rows, double inverse_hs);
-/// Moves grains out of what they overlap, `time` seconds after the beginning of the part.
+/// Moves grains out of overlap, `time` seconds after the beginning of the part.
 void part_overlapping(const GrainWalls& in, std::span<GrainBodyRow> rows, double time);
-/// Gaps at the present places.
+/// Updates gaps to the present positions.
 void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time);
-/// Adds the impulses of a sub-step to what the part has given.
+/// Adds the impulses of a sub-step to those of the part.
 void count_impulses(std::span<GrainBodyRow> rows);
-/// Restitution; what it adds is counted.
+/// Applies restitution, and adds its impulses to those of the part.
 void bounce(const GrainWalls& in, std::span<GrainBodyRow> rows, double threshold);
 
 }  // namespace tumble

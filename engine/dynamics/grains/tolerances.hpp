@@ -1,57 +1,59 @@
 #pragma once
 #include <cstdint>
 
-/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+/// Constants of this folder that are no settings: unit, reason, and source where there is one.
 namespace tumble::tolerances {
 
 // Order.
 
-/// Edge of the cells along whose curve grains are stored [largest radii]: a few grains in each, and
-/// more than how far apart two may be that a part of a tick can bring together.
+/// Edge of the cells along whose space-filling curve grains are stored [largest radii]: a few
+/// grains in each, and more than the distance of two grains that may meet in a part of a tick.
 inline constexpr double grain_cell = 4;
 
 // Contacts.
 
-/// Contacts are foreseen so far beyond what the approach of the part closes [radii]: what rests
-/// keeps its contacts while it trembles.
+/// Gap within which contacts are foreseen, beyond the approach in the part [radii]: resting grains
+/// keep their contacts while they tremble.
 inline constexpr double grain_margin = 0.02;
-/// Nothing is foreseen farther off [radii]: a plane foreseen at one point holds up what would pass
-/// beside it.
+/// Greatest gap at which contacts are foreseen [radii]: a contact plane at a farther point would
+/// stop grains that pass beside it.
 inline constexpr double grain_foresight = 1.0;
-/// Two grains may approach by no more in a part of a tick [least radii]: by half a radius more than
-/// is foreseen, so that they never pass each other's middle unseen.
+/// Greatest approach of two grains in a part of a tick [least radii]: half a radius more than is
+/// foreseen, so that they never pass each other's centre unseen.
 inline constexpr double grain_part = 1.5;
-/// Parts of a tick at most [-]: grains that are faster pass into heaps, and are pushed out.
+/// Most parts of a tick [-]: faster grains penetrate heaps, and are pushed out.
 inline constexpr int most_grain_parts = 4;
 
-/// How far about itself a grain that no shape is near asks how near they are [radii]: it need not
-/// ask again while it and they have moved by less.
+/// Distance up to which a grain without a shape near it computes its clearance [radii]: it need not
+/// do so again while grain and shapes have moved by less.
 inline constexpr double grain_clearance = 16;
 
 // Response.
 
-/// Share of the overlap that a sub-step works off by moving apart what overlaps [-]: more makes
-/// heaps tremble.
+/// Share of the overlap that is removed in a sub-step by moving grains apart [-]: a larger one
+/// makes heaps tremble.
 inline constexpr double grain_push_out = 0.3;
-/// Overlap that is left [radii], so that what rests keeps pressing.
+/// Overlap that is not corrected [radii], so that resting contacts keep pressing.
 inline constexpr double grain_slop = 1e-3;
-/// Speed at which a body leaves grains that it overlaps, by overlap [1/s]: gone in five ticks.
+/// Speed at which a body leaves grains that it overlaps, per overlap [1/s]: gone in five ticks.
 inline constexpr double grain_lift = 12;
 
 // Paths.
 
-/// A grain that passes by more than this relative to what is near looks along its path [radii].
+/// A grain that moves farther than this relative to shapes near it is swept along its path [radii].
 inline constexpr double grain_looks = 0.5;
-/// What is looked along is a ball of this size, so that what rests touches nothing [radii].
+/// Radius of the ball that is swept [radii], less than that of the grain, so that resting grains
+/// touch nothing.
 inline constexpr double grain_core = 0.8;
-/// How near counts as met [radii].
+/// Distance at which the swept ball has met a shape [radii].
 inline constexpr double grain_met = 1e-3;
 
 // Rest.
 
-/// Time over which the mean motion of a grain is taken [s].
+/// Time over which the motion of a grain is averaged [s].
 inline constexpr double grain_watch = 0.1;
-/// What moves by so many times the speed of rest wakes what it touches, and does not rest [-].
+/// A body or grain faster than this multiple of the speed of rest wakes what it touches, and does
+/// not rest [-].
 inline constexpr double grain_wakes = 6;
 
 }  // namespace tumble::tolerances

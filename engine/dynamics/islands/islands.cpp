@@ -14,7 +14,7 @@ namespace tumble {
 
 namespace {
 
-constexpr uint8_t wakes = 1;     ///< a member is awake, or something moving touches it
+constexpr uint8_t wakes = 1;     ///< a member is awake, or something moving touches or pulls it
 constexpr uint8_t restless = 2;  ///< touched by a moving kinematic body
 
 /// Whether the bodies touch now or will within the tick.
@@ -31,7 +31,7 @@ bool touching(const Contact& c, const RigidBody& a, const RigidBody& b, double h
   return false;
 }
 
-/// What matters of a body, in a byte: bodies are large.
+/// Properties of a body that matter here, in one byte: bodies are large.
 constexpr uint8_t dynamic = 1;
 constexpr uint8_t awake = 2;  ///< not asleep
 constexpr uint8_t seeks = 4;  ///< is_active
@@ -44,8 +44,8 @@ bool dynamic_awake(uint8_t kind) {
   return (kind & dynamic) && (kind & awake);
 }
 
-/// The body whose island solves what acts between a and b: the lower of the dynamic ones, or `none`
-/// when a body of it sleeps or none is dynamic.
+/// The body whose island solves a contact between a and b: the lower of the dynamic ones; `none` if
+/// one of these sleeps or none is dynamic.
 constexpr uint32_t none = ~uint32_t{0};
 uint32_t owner(uint32_t a, uint32_t b, std::span<const uint8_t> kind) {
   if (kind[a] & kind[b] & dynamic) return kind[a] & kind[b] & awake ? a : none;
@@ -59,7 +59,7 @@ uint32_t owner(const BodyLink& l, std::span<const uint8_t> kind) {
   return dynamic_awake(kind[l.b]) ? l.b : none;
 }
 
-/// out[i] = what(all[i]): one look at each of what is large.
+/// out[i] = what(all[i]); reads each large object only once.
 template <class T, class Out, class What>
 void gather(std::span<const T> all, Crew* crew, std::vector<Out>& out, const What& what) {
   out.resize(all.size());
@@ -171,7 +171,7 @@ class IslandBuilder {
     std::ranges::sort(out_.involved);
   }
 
-  /// Joins what contacts act on and notes which sets must be awake.
+  /// Joins bodies that contacts connect, and marks the sets that must be awake.
   void connect_touching() {
     const std::span<const uint8_t> kind = out_.kind_;
     const std::span<const Contact> contacts = touches();
@@ -188,7 +188,7 @@ class IslandBuilder {
     }
   }
 
-  /// The same for what ties bodies together.
+  /// The same for links.
   void connect_tied() {
     const std::span<const uint8_t> kind = out_.kind_;
     for (const BodyLink& l : links_) {
@@ -196,7 +196,7 @@ class IslandBuilder {
       if (kind[l.a] & kind[l.b] & dynamic) {
         out_.sets_.join(l.a, l.b);
       } else {
-        // A kinematic body that moves pulls what is tied to it.
+        // A moving kinematic body pulls bodies that are linked with it.
         if ((kind[l.a] & dynamic) && (kind[l.b] & seeks)) out_.flag_[l.a] |= wakes | restless;
         if ((kind[l.b] & dynamic) && (kind[l.a] & seeks)) out_.flag_[l.b] |= wakes | restless;
       }
@@ -220,8 +220,8 @@ class IslandBuilder {
     return (out_.kind_[i] & dynamic) && (out_.flag_[out_.sets_.root(i)] & wakes);
   }
 
-  /// Brings back the contacts of sleepers that are about to wake: what lies on them wakes too.
-  /// Whether there were any.
+  /// Brings back the contacts of sleeping bodies that will wake, since bodies that lie on them must
+  /// wake too. Returns whether there were any.
   bool rouse() {
     if (all_awake_) return false;
     disturbed_.clear();
@@ -230,8 +230,8 @@ class IslandBuilder {
     return !disturbed_.empty() && contacts_.rouse(disturbed_);
   }
 
-  /// Contacts that are too far to wake a sleeping body act as soon as something else wakes it: both
-  /// ends belong to one island then, or two would solve the same body.
+  /// Contacts with a gap too large to wake a sleeping body act as soon as something else wakes it.
+  /// Both bodies must then be in one island.
   void join_awake() {
     if (all_awake_) return;
     for (const IslandSet::Ends& end : out_.ends) {
@@ -278,7 +278,8 @@ class IslandBuilder {
     }
   }
 
-  /// Counts become ranges, then each body, contact and joint goes to the next place of its island.
+  /// Turns counts into ranges, then assigns each body, contact and joint to the next index of its
+  /// island.
   void fill() {
     uint32_t body_at = 0, contact_at = 0, joint_at = 0;
     const auto open = [](uint32_t& begin, uint32_t& end, uint32_t& at) {
@@ -310,7 +311,7 @@ class IslandBuilder {
   IslandSet& out_;
   Crew* crew_;
   std::span<const uint32_t> active_;
-  bool whole_;  ///< all bodies are involved: fewer would not be worth sorting
+  bool whole_;  ///< all bodies count as involved: sorting a large part of them would not pay
   bool all_awake_ = true;
   std::vector<uint32_t> disturbed_;
 };

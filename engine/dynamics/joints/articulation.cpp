@@ -10,13 +10,13 @@
 namespace tumble {
 namespace {
 
-/// How fast a row's side goes by `moves`.
+/// Velocity along one side of a row by a motion of its body.
 double dot(const RowSide& push, const std::array<double, 6>& moves) {
   return push.linear[0] * moves[0] + push.linear[1] * moves[1] + push.linear[2] * moves[2] +
          push.angular[0] * moves[3] + push.angular[1] * moves[4] + push.angular[2] * moves[5];
 }
 
-/// What a push along a side of a row does to its body by itself.
+/// Response of a body by itself to a push along one side of a row.
 std::array<double, 6> answer_of(const BodyMass& mass, const RowSide& push) {
   const Vec3 turning = mass.inverse_inertia * push.angular;
   return {mass.inverse_mass * push.linear[0],
@@ -137,7 +137,7 @@ void Articulation::lay_out(size_t blocks) {
   lay_out_core(fold_trees(blocks), blocks);
 }
 
-/// Takes leaf after leaf; gives which joints are folded, by owner.
+/// Folds leaf after leaf; returns by owner which joints are folded.
 std::vector<uint8_t> Articulation::fold_trees(size_t blocks) {
   std::vector<uint8_t> folded(owners());
   std::vector<uint32_t> left(blocks), leaves;
@@ -151,7 +151,7 @@ std::vector<uint8_t> Articulation::fold_trees(size_t blocks) {
     const uint32_t leaf = leaves[i];
     const auto ends = ends_at(leaf);
     const auto last = std::ranges::find_if(ends, [&](const End& e) { return !folded[e.owner]; });
-    // The other of two that were left may have been folded into this one.
+    // Its last neighbour may have been folded into this block.
     if (last == ends.end() || last->owner >= joints_.size()) continue;
     const size_t at = 2 * last->owner, other = at + 1 - last->side;
     if (answering_[at + last->side] != Answering::turns || answering_[other] == Answering::moves)
@@ -172,7 +172,7 @@ std::vector<uint8_t> Articulation::fold_trees(size_t blocks) {
   return folded;
 }
 
-/// The factor's blocks, and what each body adds to them.
+/// Lays out the blocks of the core's factor, and what each body adds to them.
 void Articulation::lay_out_core(std::span<const uint8_t> folded, size_t blocks) {
   core_row_.assign(held_.size(), no_row);
   std::vector<uint32_t> sizes, place(owners());
@@ -217,14 +217,14 @@ void Articulation::lay_out_core(std::span<const uint8_t> folded, size_t blocks) 
       }
 }
 
-/// The answers of an end's rows begin here, two apart of joints' and of couplings' first two sides.
+/// Index of the first answer of an end's rows; successive rows are two apart.
 size_t Articulation::first_answer(const End& end) const {
   const size_t row = first_row_[end.owner];
   if (end.side < 2) return 2 * row + end.side;
   return 2 * held_.size() + 2 * (end.owner - joints_.size()) + (end.side - 2u);
 }
 
-/// Rows along the coordinates of a joint.
+/// Adds the rows along the coordinates of a joint.
 void Articulation::add_drives(const Joint& joint, uint32_t place) {
   const size_t parts = row_count(joint.kind);
   for (size_t k = 0; joint.drives && k < most_coordinates; ++k) {
@@ -240,7 +240,7 @@ size_t Articulation::coordinate_of(size_t row) const {
   return held_[row].place - row_count(joints_[held_[row].owner].kind);
 }
 
-/// A row that is along a coordinate.
+/// Updates a row along a coordinate.
 void Articulation::update_drive(size_t at, const JointSides& sides, double t) {
   HeldRow& held = held_[at];
   const Joint& joint = joints_[held.owner];
@@ -258,7 +258,7 @@ void Articulation::update_drive(size_t at, const JointSides& sides, double t) {
 }
 
 bool Articulation::rates_held(std::span<const DofBlock> blocks) const {
-  // By lengths: what turns about an axis has the digits of its speed across it too.
+  // By magnitudes: rounding error of a rotation has all directions.
   speeds_.resize(blocks.size());
   for (size_t i = 0; i < blocks.size(); ++i)
     speeds_[i] = {blocks[i].v.norm(), blocks[i].omega.norm()};
@@ -335,7 +335,8 @@ void Articulation::look_where_moved(std::span<const RigidBody> bodies, double t)
         seen_[2 * j + k] = bodies[slot].pose;
 }
 
-/// What pushes along the rows of an end do to its body, with all that is folded into it.
+/// Computes the responses of a body, with everything that is folded into it, to pushes along the
+/// rows of an end.
 void Articulation::answer(const DofBlock& block, const End& end) {
   const size_t first = first_answer(end);
   for (size_t r = 0; r < rows_of(end); ++r) {
@@ -351,7 +352,7 @@ void Articulation::add_term(const Term& term) {
   double* const to = &factor_.values()[term.to.first];
   const size_t rows = rows_of(p), columns = rows_of(q), first = first_row_[p.owner];
   const Answer* const of_q = &answers_[first_answer(q)];
-  // Of a diagonal block the half below the diagonal is enough for the other one.
+  // For a diagonal block the lower triangle suffices.
   const bool own = term.p == term.q;
   for (size_t r = 0; r < rows; ++r) {
     const RowSide& push = side(first + r, p.side);
@@ -451,7 +452,7 @@ void Articulation::apply_change(std::span<double> change, std::span<DofBlock> bl
 
 void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) const {
   if (empty()) return;
-  // G M^-1 J^T of each row that touches jointed bodies: few entries each.
+  // G M^-1 J^T of each row that acts on jointed bodies: few entries each.
   std::vector<std::vector<std::pair<uint32_t, double>>> felt(rows.size());
   for (size_t k = 0; k < rows.size(); ++k)
     for (const RowSide* s : {&rows[k].a, &rows[k].b}) {
@@ -481,7 +482,8 @@ void Articulation::reduce(std::span<const Row> rows, Eigen::MatrixXd& delassus) 
       delassus(row, column) = delassus(column, row) = delassus(row, column) - sum;
     }
     if (delassus(column, column) > tolerances::locked_share * free) continue;
-    // No push changes this velocity, nor needs to: by itself, as of free bodies, it gets none.
+    // No push can change this velocity: the row is decoupled, with the diagonal entry of free
+    // bodies.
     locked.emplace_back(column, free);
   }
   for (const auto& [k, free] : locked) {

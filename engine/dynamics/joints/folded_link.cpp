@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-/// Whether an axis is no combination of others, of which there are at most two.
+/// Whether an axis is linearly independent of at most two others.
 bool adds_to(std::span<const Vec3> others, const Vec3& axis) {
   constexpr double least = tolerances::parallel_axes * tolerances::parallel_axes;
   if (others.empty()) return axis.squaredNorm() > least;
@@ -22,7 +22,7 @@ bool is_linear(const RowSide& s) {
 }  // namespace
 
 void FoldedLink::look(std::span<const JointRow> rows, std::span<uint8_t> depends) {
-  // Numbers of a byte may share memory with anything: what is counted is counted here.
+  // Local counters: the compiler must assume that writes through byte members may alias anything.
   const bool at_a = side == 0;
   const auto of_child = [at_a](const JointRow& row) -> const RowSide& {
     return at_a ? row.row.a : row.row.b;
@@ -48,8 +48,8 @@ void FoldedLink::look(std::span<const JointRow> rows, std::span<uint8_t> depends
   line_row = of_lines, turn_row = of_turns;
   for (size_t i = 0; i < of_parts; ++i) depends[i] = uint8_t(left_out >> i & 1);
   if (parent == no_parent) return;
-  // Of a linear row both sides together say how the point of the parent goes that it is about: by
-  // two of them r is known, by one as far as it is needed.
+  // Both sides of a linear row together give the velocity of a point of the parent: two such rows
+  // determine r, one as far as it matters.
   Vec3 to = Vec3::Zero();
   const Vec3* first = nullptr;
   for (const JointRow& row : rows) {

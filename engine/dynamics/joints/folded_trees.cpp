@@ -9,7 +9,7 @@ namespace tumble {
 
 namespace {
 
-/// Calls f with the number as a constant.
+/// Calls f with the number as a template argument.
 template <class F>
 void with_freedoms(uint8_t freedoms, const F& f) {
   switch (freedoms) {
@@ -65,7 +65,7 @@ const double* FoldedTrees::drives_of(const Link& link) const {
   return &free_[link.free + 3 * folding::most_freedoms * folding::most_freedoms];
 }
 
-/// Rows that hold the coordinates x by E x + g f = change take H to H - H E (E H E^T + g)^-1 E^T H.
+/// With rows E x + g f = change on the coordinates x, H becomes H - H E (E H E^T + g)^-1 E^T H.
 void FoldedTrees::add_drives(Link& link, std::span<const JointRow> rows,
                              std::span<const double> give) {
   const size_t k = link.freedoms, m = link.drives;
@@ -220,7 +220,7 @@ void FoldedTrees::gather(std::span<const double> change) const {
   }
 }
 
-/// What the rows push by, from the push on the child.
+/// Computes the forces of the rows from the push on the child.
 void FoldedTrees::take_forces(const Link& link, const Six& push, std::span<double> change) const {
   const Vec3 force = folding::linear_of(push.data());
   Vec3 torque = folding::angular_of(push.data());
@@ -256,8 +256,8 @@ void FoldedTrees::spread(const Link& link, const Passing& in, const Six& before,
   take_forces(link, push, change);
 }
 
-/// What the drives push by, which is taken from the push on the child; `felt` is that along its
-/// free axes if it went as it does without slack.
+/// Computes the forces of the drives and subtracts them from the push on the child; `felt` is its
+/// part along the free axes without their motion.
 void FoldedTrees::take_drives(const Link& link, const Passing& in, std::span<const double> felt,
                               Six& push, std::span<double> change) const {
   const size_t k = felt.size(), m = link.drives;

@@ -24,7 +24,7 @@ double ForceLaw::Part::right(double v) const {
   return held_between(force - gain * v, least, most);
 }
 
-/// The nearest velocity at which no step of one side is without bounds.
+/// The velocity nearest to v that steps unbounded on one side allow.
 double ForceLaw::allowed(double v) const {
   for (const Part& p : all()) {
     if (!p.step || unbounded(p.least, p.most)) continue;
@@ -34,8 +34,8 @@ double ForceLaw::allowed(double v) const {
   return v;
 }
 
-/// The solution at a velocity that is known: what the parts without a step there give, and the rest
-/// by those that have one.
+/// The solution at a known velocity: first the parts without a step there, then the rest by the
+/// steps in their order.
 ForceLaw::Solution ForceLaw::shares_at(double v, double free, double compliance) const {
   Solution out;
   out.v = v;
@@ -60,7 +60,7 @@ ForceLaw::Solution ForceLaw::shares_at(double v, double free, double compliance)
   return out;
 }
 
-/// The velocity between two breakpoints, where the law is a straight line.
+/// The solution between two breakpoints, where the law is linear.
 double ForceLaw::between(double below, double above, double free, double compliance) const {
   const double inside = std::isinf(below)   ? (std::isinf(above) ? free : above - 1)
                         : std::isinf(above) ? below + 1
@@ -96,7 +96,7 @@ ForceLaw::Solution ForceLaw::solve(double free, double compliance) const {
     const double v = breaks[i];
     double left = 0, right = 0;
     for (const Part& p : all()) left += p.left(v), right += p.right(v);
-    // free + compliance F(v) - v falls from left to right of every velocity.
+    // free + compliance F(v) - v decreases in v.
     if (free + compliance * left - v < 0)
       return shares_at(between(below, v, free, compliance), free, compliance);
     if (free + compliance * right - v <= 0) return shares_at(v, free, compliance);

@@ -18,7 +18,7 @@ Error bad_joint(std::string message) {
   return {ErrorCode::invalid_argument, std::move(message), "joint", {}};
 }
 
-/// From the frame of the definition to that of the centre of mass.
+/// From the definition's body frame to the frame of the centre of mass.
 Pose about_centre(const Pose& frame, const RigidBody* body) {
   return {body ? Vec3(frame.x - body->centre_body) : frame.x, frame.q.normalized()};
 }
@@ -83,7 +83,7 @@ Joint make_joint(const JointDef& def, const BodySet& bodies) {
 
 namespace {
 
-/// All of a side but its axes and its block.
+/// Sets everything of a side except its axes and block.
 void put_end(const Pose& frame, const RigidBody* body, JointSide& s) {
   if (!body) {
     s.x.setZero(), s.v.setZero(), s.omega.setZero();

@@ -22,7 +22,7 @@ JointRow offset_row(const JointSides& s, const Vec3& u) {
 
 namespace {
 
-/// Of a row that only turns.
+/// Velocity of a purely rotational row.
 double turn_velocity(const JointSides& s, const JointRow& row) {
   return row.row.b.angular.dot(s.b.omega - s.a.omega);
 }
@@ -55,7 +55,7 @@ JointRow distance_row(const JointSides& s) {
   row.row = point_row(s.a.block, s.a.arm, s.b.block, s.b.arm, n);
   row.error = distance;
   row.bias = n.dot(s.b.anchor_bias() - s.a.anchor_bias());
-  // What moves across the line bends it.
+  // Relative motion perpendicular to the line adds a centripetal term.
   if (distance > 0) row.bias += (d_rate.squaredNorm() - rate * rate) / distance;
   return row;
 }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t body_freedoms = 6;
 
-/// The rows as a matrix G from displacements of bodies to rows, all in metres: forces by row are G
-/// times displacements where every joint is as stiff as every other.
+/// The rows as a matrix G from displacements of bodies to rows, all in metres. Joints of equal
+/// stiffness have the forces G times displacements.
 class ScaledRows {
  public:
   ScaledRows(const Articulation& joints, std::span<const DofBlock> blocks, double arm)
@@ -31,7 +31,7 @@ class ScaledRows {
     normal_.factor();
   }
 
-  /// What a force by row in newtons is, of one in the row's own unit.
+  /// Force by row in newtons per force in the row's own unit.
   double unit(size_t row) const { return turns(row) ? 1 / arm_ : 1; }
   size_t freedoms() const { return body_freedoms * blocks_.size(); }
   /// out += sign G^T forces.

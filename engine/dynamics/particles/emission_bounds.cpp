@@ -8,12 +8,12 @@ namespace {
 
 constexpr double without_end = EmitterDef::for_ever;
 
-/// Births of a network of emitters within windows of time.
+/// Number of births in a network of emitters within time windows.
 class Births {
  public:
   explicit Births(std::span<const NamedEmitter> emitters) : emitters_(emitters) {}
 
-  /// The most in any window of so many seconds.
+  /// The greatest number of births of an emitter in any window of so many seconds.
   double within(size_t e, double window) const {
     const EmitterDef& d = *emitters_[e].def;
     double sum = own(d, window);
@@ -24,7 +24,7 @@ class Births {
   }
 
  private:
-  /// By rate and bursts.
+  /// Births by rate and bursts.
   static double own(const EmitterDef& d, double window) {
     double sum = 0;
     if (d.rate > 0) {
@@ -40,7 +40,7 @@ class Births {
     return d.count == ~uint64_t{0} ? sum : std::min(sum, double(d.count));
   }
 
-  /// What the particles of `parent` give birth to by one of its rules.
+  /// Births by one of the rules of the particles of `parent`.
   double by_event(size_t parent, const SpawnRule& r, double window) const {
     const EmitterDef& d = *emitters_[parent].def;
     const double longest = d.most_life();

@@ -12,10 +12,10 @@ struct NamedEmitter {
   const EmitterDef* def;
 };
 
-/// How many of each emitter's own there may be at once, infinite where nothing bounds it: what
-/// rate, bursts and events can give birth to within the longest life. Events are between the
-/// emitters given; of a collision that a particle survives there may be any number. `h` is the
-/// tick [s].
+/// Greatest number of particles or bodies of each emitter that may be alive at once, infinite if
+/// unbounded: what rate, bursts and events can create within the longest life. Events are between
+/// the given emitters; a collision that a particle survives may happen any number of times. `h` is
+/// the tick [s].
 std::vector<double> most_alive(std::span<const NamedEmitter> emitters, double h);
 
 }  // namespace tumble

@@ -14,8 +14,8 @@ namespace tumble {
 
 class Hierarchy;
 
-// Where an emitter sends out from, in its own frame, whose y axis is the direction of emission.
-// Every point of a kind is as likely as any other.
+// Regions from which an emitter emits, in its own frame, whose y axis is the direction of emission.
+// Points are distributed uniformly.
 
 struct PointEmission {
   static constexpr std::string_view type_name = "point";
@@ -23,7 +23,7 @@ struct PointEmission {
   static void parameters(Visitor&, Self&) {}
 };
 
-/// Along x, the origin in its middle.
+/// A line along x with the origin in its middle.
 struct LineEmission {
   static constexpr std::string_view type_name = "line";
   double length = 1;  ///< [m]
@@ -39,7 +39,7 @@ struct LineEmission {
   }
 };
 
-/// Across y.
+/// A disc or ring perpendicular to y.
 struct DiscEmission {
   static constexpr std::string_view type_name = "disc";
   double radius = 1, inner_radius = 0;  ///< [m]
@@ -94,7 +94,7 @@ struct BoxEmission {
   }
 };
 
-/// The triangles of a mesh, by their area.
+/// The surface of a mesh.
 struct MeshSurfaceEmission {
   static constexpr std::string_view type_name = "mesh_surface";
   std::shared_ptr<const TriangleMesh> mesh;
@@ -110,8 +110,8 @@ struct MeshVolumeEmission {
   static void parameters(Visitor&, Self&) {}
 };
 
-/// The list of shapes to emit from; adding one is an alternative at its end (snapshots keep the
-/// number), its draw in emission_shape.cpp and its test.
+/// The list of shapes to emit from. To add one: an alternative at its end (snapshots store the
+/// index), its draw in emission_shape.cpp, and a test.
 using EmissionShapeDef = std::variant<PointEmission, LineEmission, DiscEmission, SphereEmission,
                                       BoxEmission, MeshSurfaceEmission, MeshVolumeEmission>;
 
@@ -119,18 +119,18 @@ using EmissionShapeDef = std::variant<PointEmission, LineEmission, DiscEmission,
 std::shared_ptr<const TriangleMesh> mesh_of(const EmissionShapeDef& def);
 std::shared_ptr<const TriangleMesh>* mesh_of(EmissionShapeDef& def);
 
-/// A point of the shape and the way out there (unit): of surfaces their normal, of a ball away from
-/// its centre, else +y.
+/// A point of the shape, and an outward unit vector there: the normal of a surface, the direction
+/// from the centre of a ball, otherwise +y.
 struct EmissionPoint {
   Vec3 x = Vec3::Zero();
   Vec3 outward = Vec3::UnitY();
 };
 
-/// A shape that is ready to be drawn from.
+/// A shape prepared for drawing points.
 class EmissionShape {
  public:
-  /// Errors: a size that is not > 0, a mesh without area or, for its volume, that encloses none or
-  /// less than a thousandth of its box.
+  /// Error if a size is not > 0, if a mesh has no area or, for its volume, encloses none or less
+  /// than a thousandth of its bounding box.
   static Result<EmissionShape> make(const EmissionShapeDef& def);
   EmissionPoint draw(Random& random) const;
 
@@ -144,7 +144,7 @@ class EmissionShape {
   EmissionPoint draw(const MeshVolumeEmission& volume, Random& random) const;
 
   EmissionShapeDef def_;
-  std::vector<double> areas_;  ///< of the triangles up to this one [m2]
+  std::vector<double> areas_;  ///< cumulative areas of the triangles [m2]
   std::shared_ptr<const Hierarchy> inside_;
 };
 

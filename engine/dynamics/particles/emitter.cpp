@@ -141,7 +141,7 @@ std::string content_fault(const EmitterDef& d) {
   return {};
 }
 
-/// Whether rate and bursts go on for ever.
+/// Whether the rate never ends.
 bool endless(const EmitterDef& d) {
   const FactorCurve& factor = d.over_time.rate;
   const bool ends = std::isfinite(d.end) || (!factor.empty() && factor.points.back().value == 0);

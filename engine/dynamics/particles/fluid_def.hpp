@@ -8,38 +8,39 @@
 
 namespace tumble {
 
-/// How pressure is found.
+/// Method for the pressure.
 enum class FluidSolverKind : uint8_t {
   /// Divergence-free SPH (Bender and Koschier, "Divergence-free SPH for incompressible and viscous
-  /// fluids", 2017): pressures such that density neither exceeds that at rest nor is about to.
+  /// fluids", 2017): pressures by which density neither exceeds the rest density nor is about to.
   dfsph,
   /// Weakly compressible SPH (Becker and Teschner, "Weakly compressible SPH for free surface
-  /// flows",
-  /// 2007): pressure is a stiff function of density.
+  /// flows", 2007): pressure is a stiff function of density.
   wcsph,
 };
 enum class FluidKernelKind : uint8_t { cubic_spline, wendland };
 
-/// What a particle system is made of when it is a fluid. Its particles have the masses that their
-/// system gives them; each stands for the volume mass / density.
+/// Properties of a particle system that is a fluid. Masses of particles are those of the system;
+/// each particle represents the volume mass / density.
 struct FluidDef {
   FluidSolverKind solver = FluidSolverKind::dfsph;
   FluidKernelKind kernel = FluidKernelKind::cubic_spline;
-  double density = 1000;       ///< at rest [kg/m3]
-  double smoothing = 2;        ///< reach of the kernel [spacings: cube roots of particle volumes]
+  /// Support radius of the kernel [spacings: cube roots of particle volumes]
+  double density = 1000;
+  double smoothing = 2;        ///< dynamic viscosity, solved implicitly [Pa s]
   double viscosity = 0.001;    ///< dynamic, solved implicitly [Pa s]
   double xsph = 0.05;          ///< share of the difference to the mean velocity about it that a
                                ///< particle loses in a sub-step (Schechter and Bridson 2012) [-]
   double surface_tension = 0;  ///< [N/m]
   double adhesion =
-      0;  ///< of a wall over that of the fluid: (1 + cosine of the contact angle) / 2 [-]
-  double wall_friction = 0;  ///< share of `viscosity` that walls have [-]; 1 is no slip
+      /// Adhesion to walls over cohesion of the fluid: (1 + cosine of the contact angle) / 2 [-]
+      0;
+  double wall_friction = 0;  ///< viscosity at walls, as a share of `viscosity`; 1 is no slip [-]
   // dfsph
-  double density_error = 0.0005;  ///< mean, at which iterations stop [-]
+  double density_error = 0.0005;  ///< mean relative density error at which iterations stop [-]
   int most_iterations = 100;      ///< of each of the two solves of a sub-step
   // wcsph
   double sound_speed = 0;  ///< [m/s]; 0: ten times the speed of the fastest particle or wave
-  double cfl = 0.4;        ///< distance per sub-step [spacings]
+  double cfl = 0.4;        ///< greatest distance that a particle moves in a sub-step [spacings]
 };
 
 Status validate(const FluidDef& def);

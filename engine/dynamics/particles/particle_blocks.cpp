@@ -56,7 +56,7 @@ Status ParticleBlocks::append(Which which, const HandlePool<ParticleSystemTag>& 
       b.shapes.push_back({shape, {}, material});
     }
   }
-  // Particles come and go, and their sizes with them.
+  // Drops unused balls: particles come and go, with different radii.
   if (balls_.size() > 2 * owners_.size() + 16)
     std::erase_if(balls_, [](const auto& known) { return known.second.use_count() == 1; });
   return {};

@@ -9,13 +9,13 @@
 
 namespace tumble {
 
-/// Particles among the bodies: blocks of three degrees of freedom, each a ball of the particle's
-/// radius that has mass but no inertia, and so never turns. They follow the bodies for as long as a
-/// tick lasts; outside ticks there are none.
+/// Particles as bodies: blocks of three degrees of freedom, each a ball of the particle's radius
+/// with mass but without inertia, which never rotates. They are appended to the bodies during a
+/// tick; between ticks there are none.
 ///
-/// Under the event stepper what touches a particle feels it at its centre, as if the other's
-/// surface were farther out by the radius: what a particle and a body do to each other then changes
-/// no angular momentum. Friction between two particles does, since neither can turn.
+/// Under the event stepper forces on a particle act at its centre, as if the other surface were
+/// farther out by the radius, so that contacts of a particle and a body conserve angular momentum.
+/// Friction between two particles does not, since neither can rotate.
 class ParticleBlocks {
  public:
   static constexpr uint32_t no_slot = ~uint32_t{0};
@@ -24,19 +24,19 @@ class ParticleBlocks {
     colliding
   };  ///< colliding ones are neither fast nor grains
 
-  /// Whether a system has blocks among these.
+  /// Whether a system gets blocks.
   static bool has_blocks(Which which, const ParticleSystem& system);
-  /// Appends the particles of systems, with the forces on them; systems that do not collide have no
-  /// shapes.
+  /// Appends the particles of the systems, with the forces on them; those of systems that do not
+  /// collide have no shapes.
   Status append(Which which, const HandlePool<ParticleSystemTag>& ids,
                 std::span<const ParticleSystem> systems, std::vector<RigidBody>& bodies);
-  /// Gives the systems the motion of their blocks, which took h seconds, and clears their forces.
+  /// Copies the motion of the blocks over h seconds to the systems, and clears their forces.
   void give_back(std::span<const RigidBody> bodies, double h,
                  std::span<ParticleSystem> systems) const;
   /// Removes the blocks.
   void remove(std::vector<RigidBody>& bodies);
 
-  /// By system slot that of its first particle, no_slot for systems that have no blocks.
+  /// By system slot: slot of its first particle; no_slot for systems without blocks.
   std::span<const uint32_t> first_slots() const { return first_of_; }
   bool has_blocks(size_t system) const {
     return system < first_of_.size() && first_of_[system] != no_slot;
@@ -44,11 +44,11 @@ class ParticleBlocks {
   bool empty() const { return owners_.empty(); }
   bool holds(uint32_t slot) const { return slot >= first_ && slot - first_ < owners_.size(); }
   ParticleName name(uint32_t slot) const { return owners_[slot - first_]; }
-  /// no_slot of what is gone, or has no block.
+  /// Slot of a particle; no_slot if it is gone or has no block.
   uint32_t slot_of(const ParticleName& name, std::span<const ParticleSystem> systems) const;
 
-  /// Slots of blocks are those of one tick: between ticks contacts name particles by their place
-  /// in a list, with particle_bit.
+  /// Slots of blocks are valid for one tick only: between ticks contacts refer to particles by
+  /// their index in a list of names, with particle_bit.
   template <class ContactType>
   void store_contacts(std::vector<ContactType>& contacts, std::vector<ParticleName>& names) const {
     names.clear();
@@ -59,7 +59,7 @@ class ParticleBlocks {
         *slot = particle_bit | uint32_t(names.size() - 1);
       }
   }
-  /// The reverse; contacts of particles that are gone, or have no blocks, are dropped.
+  /// The reverse; drops contacts of particles that are gone or have no blocks.
   template <class ContactType>
   void restore_contacts(std::span<const ParticleSystem> systems,
                         std::span<const ParticleName> names,

@@ -10,14 +10,14 @@
 
 namespace tumble {
 
-/// As what particles are drawn.
+/// How particles are drawn.
 enum class ParticleStyle : uint8_t {
-  spheres,  ///< one lit sphere each
-  surface,  ///< all together as the smooth surface of a clear liquid
-  smoke,    ///< soft puffs, of `opacity` in their middle
+  spheres,  ///< a lit sphere for each
+  surface,  ///< together, as the smooth surface of a clear liquid
+  smoke,    ///< soft puffs, with `opacity` at their centre
 };
 
-/// What the colour of a sphere may tell.
+/// Quantity that the colour of a sphere shows.
 enum class ParticleQuantity : uint8_t {
   none,      ///< its own colour
   speed,     ///< [m/s]
@@ -26,24 +26,24 @@ enum class ParticleQuantity : uint8_t {
   pressure,  ///< of fluids [Pa]
 };
 
-/// How the particles of a system look; carried for the viewer, without effect on the motion.
+/// Appearance of the particles of a system, for the viewer; no effect on the motion.
 struct ParticleLook {
   ParticleStyle style = ParticleStyle::spheres;
   ParticleQuantity colour_by = ParticleQuantity::none;
-  /// Values at the two ends of the colour map; equal: the least and the greatest that there have
-  /// been since the start, see ParticleSystem::seen.
+  /// Values at the two ends of the colour map; if equal, the least and greatest values since the
+  /// start, see ParticleSystem::seen.
   double low = 0, high = 0;
-  /// Of a surface: the way through the liquid on which light takes on its colour [m]; 0: twenty
-  /// radii of a particle.
+  /// For a surface: length of the path through the liquid after which light takes on its colour
+  /// [m]; 0: twenty particle radii.
   double clarity = 0;
-  double foam = 1;       ///< of a surface: how white broken liquid is, 0..1
-  double opacity = 0.4;  ///< of smoke, in the middle of a puff, 0..1
+  double foam = 1;       ///< for a surface: how white broken liquid is, 0..1
+  double opacity = 0.4;  ///< for smoke: at the centre of a puff, 0..1
   double trail = 0;      ///< length of the path that is drawn behind each; 0: none [s]
 
   bool finds_range() const { return colour_by != ParticleQuantity::none && low == high; }
 };
 
-/// The smallest range that holds what it was given; empty at first.
+/// The smallest range that contains all included values; empty at first.
 struct ValueRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -54,24 +54,24 @@ struct ValueRange {
   }
 };
 
-/// "speed", "m/s".
+/// Such as "speed", "m/s".
 struct QuantityName {
   std::string_view name, unit;
 };
 QuantityName name_of(ParticleQuantity quantity);
 
-/// `fluid`: of a system that is one.
+/// `fluid`: whether the system is one.
 Status validate(const ParticleLook& look, bool fluid);
 
-/// Exactly: all numbers as they are, and back; not checked.
+/// Exact copies of all numbers; load does not check them.
 void save(ByteWriter& out, const ParticleLook& look);
 ParticleLook load_particle_look(ByteReader& in);
 
 struct ParticleSystem;
-/// A quantity of every particle, over what `out` held; empty for `none`.
+/// Writes a quantity of every particle to `out`; empty for `none`.
 void quantity_values(const ParticleSystem& particles, ParticleQuantity quantity,
                      std::vector<float>& out);
-/// ParticleSystem::seen takes in the present values, where the look asks for that.
+/// Includes the present values in ParticleSystem::seen, if the look asks for that.
 void note_quantity(ParticleSystem& particles);
 
 }  // namespace tumble

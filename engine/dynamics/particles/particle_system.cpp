@@ -100,7 +100,7 @@ void ParticleSystem::wake_grains() {
 
 size_t ParticleSystem::find(uint64_t particle_id) const {
   if (id.empty() || particle_id < id.front()) return size();
-  // Ids ascend, so that it is not farther from the first than this; just there where none is gone.
+  // Ids ascend, so the index is at most this; equal to it if none is gone.
   const uint64_t farthest = particle_id - id.front();
   if (farthest < id.size() && id[farthest] == particle_id) return size_t(farthest);
   const auto it = std::lower_bound(id.begin(), id.end(), particle_id);
@@ -370,7 +370,7 @@ void take_values(ParticleSystem& out, const ParticleSystemDef& def) {
   out.density.resize(out.fluid ? out.size() : 0, out.fluid ? out.fluid->density : 0);
   out.spin.resize(out.grains ? out.size() : 0, Vec3::Zero());
   out.rest.resize(out.grains ? out.size() : 0);
-  // Snapshots keep it of fluids alone.
+  // Snapshots keep pressure of fluids only.
   if (!out.fluid) std::ranges::fill(out.pressure, 0);
   for (size_t i = 0; i < out.size() && out.id[i] <= def.particles.size(); ++i) {
     if (!out.emitter[i].is_null()) continue;

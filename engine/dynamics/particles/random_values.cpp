@@ -47,7 +47,7 @@ double standard_normal(Random& random) {
 
 Vec3 direction_in_cone(Random& random, const Vec3& axis, double cosine) {
   if (cosine >= 1) return axis;
-  const double along = 1 - random.uniform() * (1 - cosine);  // Archimedes: even along the axis
+  const double along = 1 - random.uniform() * (1 - cosine);  // uniform along the axis (Archimedes)
   const double across = std::sqrt(std::max(0.0, 1 - along * along));
   const double turn = 2 * det::pi * random.uniform();
   Vec3 t1, t2;

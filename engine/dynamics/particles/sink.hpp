@@ -13,9 +13,9 @@ namespace tumble {
 struct SinkTag;
 using SinkId = Handle<SinkTag>;
 
-// Where a sink is, in its own frame.
+// Regions of sinks, each in its own frame.
 
-/// Everything below y = 0.
+/// The half-space y < 0.
 struct PlaneSink {
   static constexpr std::string_view type_name = "plane";
   template <class Visitor, class Self>
@@ -55,23 +55,23 @@ struct SphereSink {
   bool holds(const Vec3& x) const { return x.squaredNorm() <= radius * radius; }
 };
 
-/// The list of regions of sinks; adding one is an alternative at its end.
+/// The list of regions of sinks; to add one, append an alternative.
 using SinkRegion = std::variant<PlaneSink, BoxSink, SphereSink>;
 
-/// Takes particles out of the world, and bodies if asked to: at the end of a tick the particles
-/// whose centre is in it, at the beginning of the next the dynamic bodies.
+/// Removes particles, and bodies if asked to: particles whose centre is in it at the end of a tick,
+/// dynamic bodies at the beginning of the next.
 struct SinkDef {
   std::string name;
   SinkRegion region;
   Pose pose;             ///< of the region's frame in the world
-  bool outside = false;  ///< it is all that is not in the region
+  bool outside = false;  ///< the sink is everything outside of the region
   bool takes_particles = true;
-  std::vector<ParticleSystemId> systems;  ///< whose particles; empty: those of all
+  std::vector<ParticleSystemId> systems;  ///< whose particles it takes; empty: those of all systems
   bool takes_bodies = false;
 };
 
 bool holds(const SinkDef& sink, const Vec3& x_world);
-/// Says which value is wrong.
+/// Names the value that is wrong.
 Status validate(const SinkDef& def);
 
 }  // namespace tumble

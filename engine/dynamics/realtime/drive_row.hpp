@@ -27,7 +27,7 @@ struct DriveRow {
   const CoordinateDrive* drive = nullptr;
   uint32_t coordinate = 0;  ///< index among the coordinates of the joint's kind
 
-  // Of the present pass.
+  // Values of the present pass.
   double value = 0;   ///< of the coordinate [m] or [rad]
   double curve = 0;   ///< hs^2/2 dJ/dt v: what curvature adds to the value in a sub-step
   double rate = 0;    ///< at the end of the previous pass: enters the momentum of the armature
@@ -42,12 +42,12 @@ struct DriveRow {
   double motor_rate = 0;  ///< velocity that a velocity motor holds
   double noted = 0;       ///< v before a pass, or before an impact
 
-  // Of the moving pass, for the relaxing one.
+  // Results of the moving pass that the relaxing pass needs.
   double moved = 0;  ///< velocity with which the bodies moved
   Shares springs{};  ///< impulses of springs alone, without dampers and bounds
   double bounce_lower = 0, bounce_upper = 0;  ///< speed after an impact on the limit; 0: no impact
   double held_lower = 0, held_upper = 0;      ///< impulses of the limits
-  /// The part of the limit's impulse that makes it bounce, at the last blow_change().
+  /// Impulse of a bouncing limit at the last blow_change().
   double blow = 0;
   bool at_lower = false, at_upper = false;
   /// A bouncing limit may be reached in this sub-step. The impact speed is that of the whole

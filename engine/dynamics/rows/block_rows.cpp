@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-/// The lower triangle L with L L^T = the given semi-definite matrix.
+/// The lower triangle L with L L^T = m, for a semi-definite matrix m.
 Mat3 cholesky_root(const Mat3& m) {
   Mat3 root = Mat3::Zero();
   for (int j = 0; j < 3; ++j)

@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// What the cells about a cell hold, relative to its centre.
+/// The points in a cell and its neighbouring cells, relative to the cell's centre.
 class Candidates {
  public:
   void collect(const CellOrder& cells, const CellOrder& ghosts, const CellOrder::Cell& cell,
@@ -58,8 +58,7 @@ class Candidates {
     for (size_t k = 0; k < n; ++k) place_[size_ + k] = uint32_t(from + k);
     size_ += n;
   }
-  /// By ascending ordinals of places: a radix sort, digits that are the same everywhere passed
-  /// over.
+  /// Sorts by ascending ordinals of places: radix sort that skips digits which are equal in all.
   void sort(std::span<const uint32_t> ordinals) {
     keys_.resize(size_), next_.resize(size_);
     uint32_t varying = 0;
@@ -89,10 +88,10 @@ class Candidates {
     uint32_t ordinal, slot;
   };
   Vec3 centre_;
-  size_t size_ = 0;  ///< of what is in use of the arrays
+  size_t size_ = 0;  ///< number of entries in use
   std::vector<float> x_, y_, z_;
   std::vector<uint32_t> place_;
-  // scratch
+  // scratch memory
   std::vector<Key> keys_, next_;
   std::vector<float> sorted_;
   std::vector<uint32_t> sorted_places_;

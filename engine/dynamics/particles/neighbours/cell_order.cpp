@@ -14,10 +14,10 @@ namespace {
 
 constexpr int axis_bits = 21;
 constexpr uint64_t axis_mask = (uint64_t{1} << axis_bits) - 1;
-/// Middle of the range of coordinates, so that those about the origin do not wrap around [cells].
+/// Offset of coordinates [cells], so that those about the origin do not wrap around.
 constexpr int64_t middle = int64_t{1} << (axis_bits - 1);
 
-/// The lowest 21 bits, with two zeros between any two.
+/// The lowest 21 bits, spread with two zeros between neighbours.
 uint64_t spread(uint64_t v) {
   v &= axis_mask;
   v = (v | v << 32) & 0x001f00000000ffff;
@@ -77,8 +77,8 @@ void CellOrder::sort_keys() {
   if (std::ranges::is_sorted(keyed_, {}, &Keyed::key)) return;
   uint64_t varying = 0;
   for (const Keyed& k : keyed_) varying |= k.key ^ keyed_[0].key;
-  // Radix sort from the lowest digit on, which keeps the order of equal keys; digits that are the
-  // same everywhere are passed over.
+  // Radix sort from the lowest digit, which keeps the order of equal keys; skips digits that are
+  // equal in all.
   constexpr int digit_bits = 11;
   constexpr uint64_t digit_mask = (1u << digit_bits) - 1;
   for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {

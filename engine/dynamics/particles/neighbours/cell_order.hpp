@@ -9,31 +9,31 @@
 
 namespace tumble {
 
-/// Points sorted by the cubic cells of a grid that they lie in, cells along Morton's curve (1966),
-/// which goes through near ones together; points of a cell keep their order. Only cells that hold
-/// points take memory (compact hashing: Ihmsen, Akinci, Becker, Teschner, "A parallel SPH
-/// implementation on multi-core CPUs", 2011). Coordinates are taken modulo 2^21 cells, so that
-/// cells very far apart may share an entry: points of a cell are candidates, their distances
-/// decide.
+/// Points sorted by the cubic cells of a grid in which they lie, with cells along Morton's
+/// space-filling curve (1966); points of a cell keep their order. Only cells that contain points
+/// take memory (compact hashing: Ihmsen, Akinci, Becker, Teschner, "A parallel SPH implementation
+/// on multi-core CPUs", 2011). Cell coordinates are taken modulo 2^21, so that cells very far apart
+/// may share an entry: points of a cell are candidates only, whose distances must be checked.
 class CellOrder {
  public:
   struct Cell {
     int64_t i, j, k;
-    uint32_t first, end;  ///< of order()
+    uint32_t first, end;  ///< range of order()
     bool at(int64_t ci, int64_t cj, int64_t ck) const { return i == ci && j == cj && k == ck; }
   };
 
   /// Cells of edge length `size` [m], one corner at the origin.
   void sort(std::span<const Vec3> points, double size, Crew* crew = nullptr);
-  /// Only order() of that, up to cells 2^21 apart, whose points may be mixed; no cells.
+  /// Computes only order(), without cells; points of cells that are 2^21 apart may be mixed.
   void line_up(std::span<const Vec3> points, double size, Crew* crew = nullptr);
 
   /// Indices of the points, cell by cell.
   std::span<const uint32_t> order() const { return order_; }
   std::span<const Cell> cells() const { return cells_; }
-  /// Null where there are no points.
+  /// Null if the cell contains no points.
   const Cell* find(int64_t i, int64_t j, int64_t k) const;
-  /// Those of a cell and the 26 about it that hold points: along i, then j, then k. How many.
+  /// The cell and those of its 26 neighbours that contain points: along i, then j, then k. Returns
+  /// their number.
   size_t about(const Cell& cell, std::array<const Cell*, 27>& out) const;
   double size() const { return size_; }
 
@@ -47,7 +47,7 @@ class CellOrder {
   double size_ = 1;
   std::vector<uint32_t> order_;
   std::vector<Cell> cells_;
-  std::vector<uint32_t> table_;  ///< by hash: one more than the index of a cell, 0 for none
+  std::vector<uint32_t> table_;  ///< hash table: index of a cell plus one; 0 if free
   struct Keyed {
     uint64_t key;
     uint32_t index;

@@ -1,7 +1,7 @@
-// Which points of nearby cells are within reach, eight at a time.
+// Finds the points of nearby cells within reach, eight at a time.
 #include "engine/dynamics/particles/neighbours/neighbour_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/particles/neighbours/neighbour_kernels.cpp"
@@ -30,7 +30,7 @@ size_t gather_near_here(const NeighbourCandidates& c, const float* point, float 
     const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
     const auto place = hn::LoadU(places, c.place + k);
     const auto near = hn::And(hn::RebindMask(places, hn::Le(square, most)), hn::Ne(place, own));
-    // Writes as many as there are lanes: some processors take very long to write fewer.
+    // Writes full vectors: on some processors partial writes are very slow.
     const Compressor<decltype(places)> compress(near);
     hn::StoreU(compress(place), places, out + found);
     found += compress.count();

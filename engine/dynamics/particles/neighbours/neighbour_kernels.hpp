@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// Points that may be neighbours of those of a cell, relative to its centre [m], in arrays that are
-/// filled up to a multiple of eight with points far away.
+/// Points that may be neighbours of those of a cell, relative to its centre [m], in arrays padded
+/// to a multiple of eight with points far away.
 struct NeighbourCandidates {
   const float* x;
   const float* y;
@@ -14,9 +14,9 @@ struct NeighbourCandidates {
   size_t padded;
 };
 
-/// Writes the places of the candidates within sqrt(reach2) of a point, without the one at `self`,
-/// in their order, and gives their number. `out` has room for NeighbourCandidates::padded and
-/// eight.
+/// Writes the places of the candidates within sqrt(reach2) of a point, except for the place `self`,
+/// in order, and returns their number. `out` must have room for NeighbourCandidates::padded and
+/// eight more.
 size_t gather_near(const NeighbourCandidates& candidates, const float* point, float reach2,
                    uint32_t self, uint32_t* out);
 

@@ -40,8 +40,8 @@ Status check_points(std::span<const Vec3> x, const NeighbourLists::Request& r) {
 
 using Edges = std::array<int8_t, 3>;
 
-/// By how many edges of a box the copy of a point that is nearest to a place is from the point, if
-/// that is one of the next.
+/// Number of edges of a box from a point to the copy of it that is nearest to another position, if
+/// that is at most one along each axis.
 Edges edges_between(const PeriodicBox& box, const Vec3& x, const Vec3& near) {
   Edges n{};
   for (int k = 0; k < 3; ++k) {
@@ -51,7 +51,7 @@ Edges edges_between(const PeriodicBox& box, const Vec3& x, const Vec3& near) {
   return n;
 }
 
-/// PeriodicBox::wrapped() without its divisions, where nothing is to be done.
+/// PeriodicBox::wrapped() that avoids divisions where the point is inside.
 Vec3 wrapped(const PeriodicBox& box, const Vec3& x) {
   for (int k = 0; k < 3; ++k)
     if (box.along(k) && !(x[k] - box.low[k] >= 0 && x[k] - box.low[k] < box.size[k]))
@@ -151,7 +151,7 @@ void NeighbourLists::add_ghosts() {
   const PeriodicBox& box = request_.box;
   const double reach = request_.reach + request_.skin;
   for (size_t p = 0; p < size() && box.any(); ++p) {
-    // Which copies along each axis are within reach of the box: the point, and the next ones.
+    // The copies along each axis within reach of the box: the point itself, and adjacent ones.
     const Vec3 at(px_[p], py_[p], pz_[p]);
     Edges first{}, last{};
     for (int k = 0; k < 3; ++k) {
@@ -190,8 +190,9 @@ void NeighbourLists::add_ghosts() {
   px_.push_back(far[0]), py_.push_back(far[1]), pz_.push_back(far[2]);
 }
 
-/// By the caller's index; of one point, by the edges along the last axis, then the others, as
-/// add_ghosts() has made them: in that order it itself comes where all are zero.
+/// Numbers places by the caller's index; copies of one point by their edges along the last axis,
+/// then the others, in the order of add_ghosts(), in which the point itself has the place of zero
+/// edges.
 void NeighbourLists::number_places() {
   ordinals_.clear();
   if (!request_.by_index) return;

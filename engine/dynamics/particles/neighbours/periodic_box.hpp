@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// A box whose opposite faces are one: what leaves through a face comes in through the other. It
-/// stands for a lattice of copies without end.
+/// A periodic box: what leaves through a face enters through the opposite one. It represents an
+/// infinite lattice of copies.
 struct PeriodicBox {
   Vec3 low = Vec3::Zero();   ///< least corner [m]
   Vec3 size = Vec3::Zero();  ///< edge lengths; 0 along axes that are not periodic [m]
@@ -15,13 +15,13 @@ struct PeriodicBox {
   bool any() const { return (size.array() > 0).any(); }
   bool operator==(const PeriodicBox&) const = default;
 
-  /// The copy of a point that is inside.
+  /// The copy of a point that lies inside the box.
   Vec3 wrapped(Vec3 x) const {
     for (int k = 0; k < 3; ++k)
       if (along(k)) x[k] -= size[k] * std::floor((x[k] - low[k]) / size[k]);
     return x;
   }
-  /// The shortest of the vectors that lead from a point to the copies of another, given one.
+  /// The shortest vector from a point to any copy of another one, given one of these vectors.
   Vec3 shortest(Vec3 d) const {
     for (int k = 0; k < 3; ++k)
       if (along(k)) d[k] -= size[k] * std::floor(d[k] / size[k] + 0.5);
