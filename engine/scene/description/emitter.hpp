@@ -24,7 +24,7 @@ struct EnumNames<SpawnRule::On> {
        {"death", SpawnRule::On::death},
        {"collision", SpawnRule::On::collision}}};
 };
-/// About which way particles leave.
+/// Direction in which particles are emitted.
 enum class EmissionDirection : uint8_t {
   axis,     ///< y of the emitter's frame
   outward,  ///< the normal of the shape where they leave
@@ -35,7 +35,7 @@ struct EnumNames<EmissionDirection> {
       {{"axis", EmissionDirection::axis}, {"outward", EmissionDirection::outward}}};
 };
 
-/// A number that is drawn for each particle. In a file a bare number stands for {"mean": number}.
+/// A random number, drawn for each particle. In a file a bare number stands for {"mean": number}.
 struct RandomNumberDescription {
   RandomNumber number;
 
@@ -112,7 +112,7 @@ struct BurstDescription {
   }
 };
 
-/// What the particles of an emitter give birth to.
+/// Births that events of an emitter's particles cause.
 struct EmitterEventDescription {
   SpawnRule::On event = SpawnRule::On::death;
   std::string emitter;
