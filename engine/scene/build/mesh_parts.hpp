@@ -27,8 +27,8 @@ struct MeshParts {
 Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
                              const MeshRepresentation& how);
 
-/// What is approximate about the hull of a mesh in its place, and by how much: how far it reaches
-/// outside, and what that does to the mass. "" where the mesh is convex, or has no hull.
+/// Note on the error of the hull of a mesh in its place: how far it extends beyond the mesh, and
+/// the effect on the mass. "" if the mesh is convex, or has no hull.
 std::string hull_note(const std::shared_ptr<const TriangleMesh>& mesh);
 
 /// Appends the collision shapes of a mesh; `whole` has its pose in the body frame and its material.
