@@ -63,6 +63,10 @@ double TimeCourse::at(double t) const {
   return factor_ * (v0 + (t - t0) / (t1 - t0) * (v1 - v0));
 }
 
+Result<TimeCourse> TimeCourse::with_text(std::string text) const {
+  return expression(std::move(text), constants_);
+}
+
 TimeCourse TimeCourse::scaled(double factor) const {
   TimeCourse out = *this;
   out.factor_ *= factor;

@@ -25,7 +25,9 @@ class TimeCourse {
 
   /// NaN if an expression has no finite value.
   double at(double t) const;
-  /// The course times a factor.
+  /// Another expression of the same constants, without the factor. Errors: as of expression().
+  Result<TimeCourse> with_text(std::string text) const;
+  /// The same times a factor.
   TimeCourse scaled(double factor) const;
 
   /// The expression without the factor; empty for a table.

@@ -28,8 +28,10 @@ struct BuiltScene {
   std::map<std::string, SinkId, std::less<>> sinks;
   std::map<std::string, SensorId, std::less<>> sensors;  ///< "door", "bin[3]"
   std::shared_ptr<const SceneMeshes> meshes;
-  std::optional<MicroscopeSetup> microscope;  ///< checked at tick 0: it is not refused
-  /// Every approximation, and everything that could not be done as the scene asks.
+  std::optional<MicroscopeSetup> microscope;  ///< not refused at tick 0
+  /// What was moved so that joints fit, a sentence for each body; where the scene asks for that.
+  std::vector<std::string> assembly;
+  /// Every approximation and anything that could not be done as asked.
   std::vector<std::string> warnings;
 };
 

@@ -38,6 +38,7 @@ struct SceneDescription {
   uint64_t seed = 1;
   NamedList<ParameterDescription> parameters_;
   WorldSettings settings;
+  bool assemble = false;
   NamedList<MaterialDescription> materials;
   NamedList<MeshDescription> meshes;
   NamedList<BodyDescription> bodies;
@@ -81,6 +82,9 @@ struct SceneDescription {
     v.map(d.parameters_, {.name = "parameters", .doc = "numbers for use in values and --set"});
     v.field(d.seed, {.name = "seed", .doc = "of everything random"});
     v.object(d.settings, {.name = "settings", .doc = "tick, gravity and algorithms"});
+    v.field(d.assemble, {.name = "assemble",
+                         .doc = "before the start bodies are moved, and their velocities changed, "
+                                "as little as joints, their limits and couplings need"});
     v.map(d.materials, {.name = "materials", .doc = "surfaces and densities"});
     v.map(d.meshes, {.name = "meshes", .doc = "mesh files"});
     v.map(d.bodies, {.name = "bodies", .doc = "rigid bodies"});

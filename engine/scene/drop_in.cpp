@@ -54,7 +54,7 @@ SceneDescription falling_on_table(const std::filesystem::path& file) {
   scene.bodies.add("table", table());
 
   BodyDescription& body = scene.bodies.add("mesh");
-  body.shape.emplace().kind = MeshShapeDescription{"dropped", {}};
+  body.shape.emplace().kind = MeshShapeDescription{"dropped", {}, {}};
   body.placement.position = {0, 1.2, 0};
   body.placement.euler_deg = Vec3(20, 30, 10);
   body.material.emplace().like = "plastic";

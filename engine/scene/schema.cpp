@@ -78,6 +78,9 @@ Json schema_of(const Varying*, const Parameter& p) {
   out["anyOf"].push_back({{"type", "array"}, {"items", array({{"type", "number"}}, 2)}});
   return out;
 }
+Json schema_of(const VaryingVec3*, const Parameter& p) {
+  return array(schema_of(static_cast<const Varying*>(nullptr), p), 3);
+}
 Json schema_of(const int*, const Parameter& p) {
   return number(p, "integer");
 }

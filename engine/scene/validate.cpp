@@ -149,10 +149,17 @@ class ReferenceCheck {
     if (e.radius) {
       double least = e.radius->number.least();
       for (const double f : e.size_over_life) least = std::min(least, f * e.radius->number.least());
+      for (const EmissionKeyDescription& key : e.over_time)
+        least = std::min(least, key.radius.value_or(1) * e.radius->number.least());
       if (least > 0 && least < min_shape_size)
         sink_(path + ".radius",
               fmt::format("must be at least {} m, but may be {} m", min_shape_size, least));
     }
+    const ParticleSystemDescription* of = scene_.particles.find(e.particles);
+    if (of && !of->grains && (e.spin.number.mean != 0 || e.spin.number.spread != 0))
+      sink_(path + ".spin", fmt::format("the particles of '{0}' do not turn: only bodies do, and "
+                                        "particles with \"grains\" in particles.{0}",
+                                        e.particles));
     for (size_t i = 0; i < e.events.size(); ++i) event(e, i, path);
   }
   void event(const EmitterDescription& e, size_t i, const std::string& path) {
@@ -206,12 +213,26 @@ class ReferenceCheck {
             for (size_t i = 0; i < kind.target.bodies.size(); ++i)
               body_or_copies(kind.target.bodies[i], fmt::format("{}.bodies[{}]", path, i));
             systems(kind.target.particles, path + ".particles");
+          } else if constexpr (requires { kind.shells; }) {
+            radial(kind, path);
           } else {
             counted_body(kind.a, s.count, path + ".a");
             counted_body(kind.b, s.count, path + ".b");
           }
         },
         s.kind);
+  }
+  void radial(const RadialDescription& d, const std::string& path) {
+    systems(d.particles, path + ".particles");
+    for (const std::string& name : d.particles) {
+      const ParticleSystemDescription* p = scene_.particles.find(name);
+      if (!p || !p->periodic_box) continue;
+      for (int k = 0; k < 3; ++k)
+        if (const double edge = p->periodic_box->size[k]; edge > 0 && d.range > 0.5 * edge)
+          return sink_(
+              path + ".range",
+              fmt::format("must be at most half an edge of the periodic box, {} m", 0.5 * edge));
+    }
   }
   void lesson(const LessonDescription& l) {
     for (size_t i = 0; i < l.steps.size(); ++i)
@@ -268,14 +289,13 @@ class ReferenceCheck {
         [&](const auto& kind) {
           if constexpr (requires { kind.field.targets; }) acted_on(kind, path);
           if constexpr (requires { kind.between; }) systems(kind.between, path + ".between");
+          if constexpr (requires { kind.anchor; }) anchor(kind.anchor, path + ".anchor");
         },
         f.kind);
     if (const auto* spring = std::get_if<SpringDescription>(&f.kind)) {
       anchor(spring->a, path + ".a");
       anchor(spring->b, path + ".b");
     }
-    if (const auto* pull = std::get_if<MouseSpringDescription>(&f.kind))
-      anchor(pull->anchor, path + ".anchor");
   }
 
   const SceneDescription& scene_;

@@ -167,7 +167,8 @@ struct Apply {
   /// Whether a force without anchors may set a resting body in motion; drag without wind does not.
   static bool moves_resting(const ForceDef& def) {
     if (std::holds_alternative<LinearDragDef>(def)) return false;
-    if (const auto* drag = std::get_if<QuadraticDragDef>(&def)) return !drag->wind.isZero(0);
+    if (const auto* drag = std::get_if<QuadraticDragDef>(&def))
+      return drag->wind.varies() || !drag->wind.now().isZero(0);
     return anchors(def).empty();
   }
   void wake_anchors(const ForceDef& def) {
@@ -188,6 +189,7 @@ struct Apply {
     if (id != c.id) return broken();
     if (s.forces.size() <= id.index) s.forces.resize(id.index + 1);
     s.forces[id.index] = c.def;
+    begin_force(s, id.index);
     wake_anchors(c.def);
     return {};
   }
@@ -196,6 +198,7 @@ struct Apply {
     if (!s.force_ids.contains(c.id)) return broken();
     wake_anchors(*s.forces[c.id.index]);
     s.forces[c.id.index] = c.def;
+    begin_force(s, c.id.index);
     wake_anchors(c.def);
     return {};
   }
@@ -205,6 +208,7 @@ struct Apply {
     wake_anchors(*s.forces[c.id.index]);
     s.force_ids.release(c.id);
     s.forces[c.id.index].reset();
+    begin_force(s, c.id.index);
     return {};
   }
 

@@ -3,6 +3,7 @@
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/forces/anchor.hpp"
 #include "engine/math/types.hpp"
+#include "engine/math/varying.hpp"
 #include "engine/world/time.hpp"
 
 #include <optional>
@@ -16,6 +17,16 @@
 /// valid.
 namespace tumble::byte_parts {
 
+inline void write_varying(ByteWriter& out, const Varying& number) {
+  out.value(number.value);
+  write_course(out, number.course);
+}
+
+inline void read_varying(ByteReader& in, Varying& number) {
+  in.value(number.value);
+  number.course = read_course(in);
+}
+
 /// Writes every declared parameter of a struct in the order of its declaration.
 struct WriteParameters {
   ByteWriter& out;
@@ -28,6 +39,10 @@ struct WriteParameters {
     } else if constexpr (std::is_same_v<T, TickRate>) {
       out.value(value.num);
       out.value(value.den);
+    } else if constexpr (std::is_same_v<T, Varying>) {
+      write_varying(out, value);
+    } else if constexpr (std::is_same_v<T, VaryingVec3>) {
+      for (const Varying& x : value.of) write_varying(out, x);
     } else {
       out.value(value);
     }
@@ -49,6 +64,10 @@ struct ReadParameters {
     } else if constexpr (std::is_same_v<T, TickRate>) {
       in.value(value.num);
       in.value(value.den);
+    } else if constexpr (std::is_same_v<T, Varying>) {
+      read_varying(in, value);
+    } else if constexpr (std::is_same_v<T, VaryingVec3>) {
+      for (Varying& x : value.of) read_varying(in, x);
     } else {
       in.value(value);
     }

@@ -1,5 +1,6 @@
 #include "engine/world/courses.hpp"
 
+#include "engine/dynamics/forces/field.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/math/time_course.hpp"
@@ -93,6 +94,45 @@ Aim aim_of(const WorldState& s, uint32_t slot) {
   return {pose_at(def, s.time_after()), left + (to - from) * def.course->axis.normalized()};
 }
 
+/// Whether a force is usable as it is in the middle of the tick from now, and at its end.
+Status check_force(const WorldState& s, uint32_t slot, ForceDef& scratch) {
+  scratch = *s.forces[slot];
+  for (const double t : {0.5 * (s.time() + s.time_after()), s.time_after()}) {
+    go_to(scratch, t);
+    Status fine = check_ranges(scratch);
+    if (fine) continue;
+    Error error = fine.error();
+    error.message = fmt::format("at t = {} s its course leads out of range: {}", t, error.message);
+    return error;
+  }
+  return {};
+}
+
+/// Wakes what a force acts on: without anchors and targets everything.
+void rouse_pulled(WorldState& s, const ForceDef& def) {
+  const FieldTargets everything;
+  const FieldTargets* targets = field_targets(def);
+  if (!targets && anchors(def).empty() && !paired_systems(def)) targets = &everything;
+  if (targets) {
+    const ForceContext context = s.force_context();
+    const RigidBody* first = s.bodies.bodies.data();
+    for_targets(
+        *targets, context, [&](RigidBody& b) { rouse(s, uint32_t(&b - first)); },
+        [](ParticleSystem& p) { p.wake_grains(); });
+  }
+  for (const Anchor& a : anchors(def))
+    if (a.kind == Anchor::Kind::body && s.bodies.find(a.body)) rouse(s, a.body.index);
+}
+
+double gained(WorldState& s, uint32_t slot) {
+  ForceDef& def = *s.forces[slot];
+  if (!has_potential(def)) return 0;
+  go_to(def, s.time());
+  const double before = potential_energy(def, s.force_context());
+  go_to(def, s.time_after());
+  return potential_energy(def, s.force_context()) - before;
+}
+
 bool finite(const Aim& a) {
   return a.frame.x.allFinite() && a.frame.q.coeffs().allFinite() && a.turn.allFinite();
 }
@@ -150,7 +190,20 @@ void set_velocity(WorldState& s, uint32_t slot, const Aim& aim) {
 }  // namespace
 
 bool has_courses(const WorldState& s) {
-  return !s.on_course.empty() || !s.joints.timed.empty();
+  return !s.on_course.empty() || !s.joints.timed.empty() || !s.forces_on_course.empty();
+}
+
+CourseSupply::CourseSupply(WorldState& s) {
+  for (const uint32_t slot : s.forces_on_course) before_.push_back(gained(s, slot));
+  reset_forces(s);
+}
+
+void CourseSupply::book(WorldState& s) const {
+  for (size_t i = 0; i < before_.size(); ++i) {
+    const uint32_t slot = s.forces_on_course[i];
+    s.ledger.book_force(slot, {.balance = 0.5 * (before_[i] + gained(s, slot))});
+    go_to(*s.forces[slot], s.time_after());
+  }
 }
 
 void set_motor_targets(WorldState& s) {
@@ -171,8 +224,16 @@ Status follow_courses(WorldState& s) {
   for (const uint32_t slot : s.on_course)
     if (!finite(aims.emplace_back(aim_of(s, slot))))
       return no_value(s.time_after(), body_label(s, slot));
+  ForceDef scratch;
+  for (const uint32_t slot : s.forces_on_course)
+    if (Status fine = check_force(s, slot, scratch); !fine) return fine;
   for (size_t i = 0; i < drives.size(); ++i) set_targets(s, s.joints.timed[i], drives[i]);
   for (size_t i = 0; i < aims.size(); ++i) set_velocity(s, s.on_course[i], aims[i]);
+  for (const uint32_t slot : s.forces_on_course) {
+    ForceDef& def = *s.forces[slot];
+    if (differs_at(def, s.time_after())) rouse_pulled(s, def);
+    go_to(def, 0.5 * (s.time() + s.time_after()));
+  }
   return {};
 }
 
@@ -224,7 +285,23 @@ void end_course(WorldState& s, uint32_t slot) {
   s.body_defs[slot] = std::make_shared<const BodyDef>(std::move(def));
 }
 
+void begin_force(WorldState& s, uint32_t slot) {
+  const auto at = std::ranges::lower_bound(s.forces_on_course, slot);
+  const bool known = at != s.forces_on_course.end() && *at == slot;
+  const bool follows = s.forces[slot] && follows_courses(*s.forces[slot]);
+  if (known && !follows) s.forces_on_course.erase(at);
+  if (follows && !known) s.forces_on_course.insert(at, slot);
+  if (follows) go_to(*s.forces[slot], s.time());
+}
+
+void reset_forces(WorldState& s) {
+  for (const uint32_t slot : s.forces_on_course) go_to(*s.forces[slot], s.time());
+}
+
 void find_courses(WorldState& s) {
+  s.forces_on_course.clear();
+  for (uint32_t slot = 0; slot < s.forces.size(); ++slot)
+    if (s.forces[slot] && follows_courses(*s.forces[slot])) s.forces_on_course.push_back(slot);
   s.on_course.clear();
   for (uint32_t slot = 0; slot < s.body_defs.size(); ++slot)
     if (s.body_defs[slot] && s.body_defs[slot]->course) s.on_course.push_back(slot);

@@ -3,16 +3,32 @@
 
 namespace tumble {
 
-// Targets of motors, and kinematic bodies, that follow a prescribed course over time (TimeCourse).
-// They are functions of the definitions and of the time only, and are evaluated anew for each tick.
+// What follows a course over time (TimeCourse): targets of motors, kinematic bodies, and numbers of
+// forces. All of it is a function of the definitions and of the time, worked out anew for each
+// tick.
 
-/// For the coming tick: sets the targets of motors, and the velocities that bring kinematic bodies
-/// to their prescribed poses at its end. Wakes bodies that a motor begins to move. Error: a course
-/// has no finite value; then nothing is changed.
+/// For the tick from now: targets of motors, the velocities that bring kinematic bodies to where
+/// they are to be at its end, and forces as they are in its middle. Wakes what motors and forces
+/// begin to move. Error: a course has no finite value, or leaves the range of a force's number;
+/// nothing is changed.
 Status follow_courses(WorldState& state);
 
-/// Sets only the targets of motors, for queries between ticks; a target without a finite value is
-/// left as it was.
+/// What the energy of forces gains by their courses over a tick, at the places where things are
+/// before and after it: (U(x0, t1) - U(x0, t0) + U(x1, t1) - U(x1, t0)) / 2. Its error is of third
+/// order in the tick where courses are smooth; where they jump it is what they do. None for forces
+/// without a potential, which do work.
+class CourseSupply {
+ public:
+  /// Before the tick.
+  explicit CourseSupply(WorldState& state);
+  /// After the tick, before time is counted on: books it, and leaves forces as they are at its end.
+  void book(WorldState& state) const;
+
+ private:
+  std::vector<double> before_;  ///< by place in forces_on_course [J]
+};
+
+/// Only the targets, for questions about the moment; those without a finite value stay.
 void set_motor_targets(WorldState& state);
 
 /// How bodies on courses move through the coming tick, given that their velocities are its means:
@@ -27,7 +43,12 @@ std::vector<CourseMotion> course_changes(const WorldState& state);
 void begin_course(WorldState& state, uint32_t slot);
 /// Removes the course of a body, which then moves by its velocity.
 void end_course(WorldState& state, uint32_t slot);
-/// Rebuilds the list of bodies on courses from the definitions.
+/// Sets the numbers of a force that was made or changed to their values of now, and records whether
+/// it follows courses.
+void begin_force(WorldState& state, uint32_t slot);
+/// Sets the numbers of all forces to their values of now.
+void reset_forces(WorldState& state);
+/// Rebuilds the lists of bodies and forces on courses from the definitions.
 void find_courses(WorldState& state);
 bool has_courses(const WorldState& state);
 

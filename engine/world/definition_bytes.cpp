@@ -258,6 +258,8 @@ ForceDef read_force_def(ByteReader& in) {
     read_anchor(in, s->b);
   } else if (auto* m = std::get_if<MouseSpringDef>(&def)) {
     read_anchor(in, m->anchor);
+  } else if (auto* l = std::get_if<LoadDef>(&def)) {
+    read_anchor(in, l->anchor);
   } else if (auto* mesh = std::get_if<SpringMeshDef>(&def)) {
     mesh->mesh = read_spring_mesh(in);
     if (!mesh->fault().empty()) in.fail();

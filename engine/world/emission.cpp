@@ -56,6 +56,8 @@ class ParticleEmission {
     empty(scratch_.born);
     for (uint32_t k = 0; k < s_.particles.size(); ++k)
       if (s_.particle_ids.alive(k)) end_lives(k);
+    if (eventful_) bodies_live();
+    take_asked();
     scratch_.counts.clear();
     for (const ParticleSystem& p : s_.particles) scratch_.counts.push_back(p.size());
     answer_calls();
@@ -63,6 +65,7 @@ class ParticleEmission {
     answer_calls();
     if (too_many_) return too_many(s_, *too_many_);
     for (ParticleSystem& p : s_.particles) age(p);
+    for (size_t k = 0; k < s_.particles.size(); ++k) change_masses(k);
     book();
     return {};
   }
@@ -139,6 +142,7 @@ class ParticleEmission {
         if (r.dies) scratch_.gone[i] = dies;
       }
       if (scratch_.gone[i] == dies) call_all(*e, SpawnRule::On::death, before(p, i, over), over);
+      if (scratch_.gone[i] == in_sink) call_all(*e, SpawnRule::On::sink, {p.x[i], p.v[i]}, 0);
     }
   }
 
@@ -176,7 +180,89 @@ class ParticleEmission {
       if (r.on == on) call(r, at, ago);
   }
   void call(const SpawnRule& r, const Past& at, double ago) {
-    if (!r.emitter.is_null()) scratch_.calls.push_back({r.emitter, at.x, at.v, ago, r.count});
+    Emitter* called = s_.emitters.find(r.emitter);
+    if (!called) return;
+    if (called->def->body)  // they are made before the next tick
+      called->asked.push_back({at.x, at.v, end_ - ago, r.count});
+    else
+      scratch_.calls.push_back({r.emitter, at.x, at.v, ago, r.count});
+  }
+
+  /// The births of particles that events of bodies asked for before the tick.
+  void take_asked() {
+    for (uint32_t slot = 0; slot < s_.emitters.list.size(); ++slot) {
+      Emitter& e = s_.emitters.list[slot];
+      if (!e.def || e.def->body) continue;
+      for (const Emitter::Asked& a : e.asked)
+        scratch_.calls.push_back(
+            {s_.emitters.ids.at(slot), a.x, a.v, std::clamp(end_ - a.time, 0.0, h_), a.count});
+      e.asked.clear();
+    }
+  }
+
+  /// The events of bodies within the tick.
+  void bodies_live() {
+    find_body_hits();
+    for (Emitter& e : s_.emitters.list) {
+      if (!e.def || !e.def->body || e.def->events.empty()) continue;
+      for (Emitter::OwnBody& own : e.bodies)
+        if (const RigidBody* b = s_.bodies.find(own.id)) live_body(e, own, *b);
+    }
+  }
+
+  void live_body(const Emitter& e, Emitter::OwnBody& own, const RigidBody& b) {
+    const double age = end_ - own.born;
+    const auto at = [&](double ago) -> Past {
+      return {interpolate(start_.pose(own.id.index), b.pose, 1 - ago / h_).x, b.v};
+    };
+    along_life(e, age - h_, age, own.dies - own.born, at);
+    if (b.asleep) return;  // it touches what it touched
+    const auto [first, last] =
+        std::ranges::equal_range(scratch_.body_hits, own.id.index, {}, &BodyHit::slot);
+    for (auto hit = first; hit != last; ++hit) {
+      if (std::ranges::binary_search(own.touching, hit->other)) continue;
+      const Past there{hit->x, b.v + b.omega.cross(hit->x - b.pose.x)};
+      for (const SpawnRule& r : e.def->events) {
+        if (r.on != SpawnRule::On::collision) continue;
+        call(r, there, 0);
+        if (r.dies) own.dies = end_;
+      }
+    }
+    own.touching.clear();
+    for (auto hit = first; hit != last; ++hit) own.touching.push_back(hit->other);
+  }
+
+  /// What presses against bodies whose collisions are events, one place for each pair.
+  void find_body_hits() {
+    std::vector<BodyHit>& hits = scratch_.body_hits;
+    hits.clear();
+    std::vector<uint8_t>& waits = scratch_.hit;
+    waits.assign(s_.bodies.bodies.size(), 0);
+    bool any = false;
+    for (const Emitter& e : s_.emitters.list) {
+      if (!e.def || !e.def->body) continue;
+      const bool collisions = std::ranges::any_of(
+          e.def->events, [](const SpawnRule& r) { return r.on == SpawnRule::On::collision; });
+      for (const Emitter::OwnBody& own : e.bodies)
+        if (collisions && own.id.index < waits.size()) {
+          waits[own.id.index] = 1;
+          any = true;
+        }
+    }
+    if (!any) return;
+    for (const Contact& c : std::as_const(s_.contacts).contacts()) {
+      const uint32_t a = c.key.body_a, b = c.key.body_b;
+      if (std::max(a, b) >= waits.size() || !(waits[a] || waits[b]) || !c.pressed()) continue;
+      int pressed = 0;
+      while (pressed + 1 < c.count && contact_impulse(c, pressed).isZero(0)) ++pressed;
+      const Vec3 x = contact_position(c, pressed, s_.bodies.bodies);
+      if (waits[a]) hits.push_back({a, s_.bodies.ids.at(b), x});
+      if (waits[b]) hits.push_back({b, s_.bodies.ids.at(a), x});
+    }
+    const auto pair = [](const BodyHit& hit) { return std::pair(hit.slot, hit.other); };
+    std::ranges::stable_sort(hits, {}, pair);
+    const auto twice = std::ranges::unique(hits, {}, pair);
+    hits.erase(twice.begin(), twice.end());
   }
 
   void answer_calls() {
@@ -221,7 +307,7 @@ class ParticleEmission {
     ParticleSystem& p = s_.particles[d.particles.index];
     if (p.size() >= most_of_a_system) too_many_ = &e;
     if (too_many_) return;
-    ParticleDef born = next_particle(e, place);
+    ParticleDef born = next_particle(e, place, end_ - ago - e.begun);
     const Vec3 a = p.gravity_scale * s_.settings.gravity;
     if (!d.events.empty()) {
       const auto at = [&](double before_end) -> Past {
@@ -253,6 +339,25 @@ class ParticleEmission {
         if (!d.colour_over_life.empty()) p.colour[i] = over_life(d.colour_over_life, u);
       }
     });
+  }
+
+  /// Sets masses to those of the present age. Mass that is lost leaves, and mass that is gained
+  /// comes, with the velocity of its particle.
+  void change_masses(size_t k) {
+    ParticleSystem& p = s_.particles[k];
+    for (size_t i = 0; i < p.size(); ++i) {
+      const Emitter* e = s_.emitters.find(p.emitter[i]);
+      if (!e || e->def->mass_over_life.empty()) continue;
+      const double u = std::clamp(p.age[i] / p.life[i], 0.0, 1.0);
+      const double lost = p.mass[i] - p.born_mass[i] * over_life(e->def->mass_over_life, u);
+      if (lost == 0) continue;
+      if (i < scratch_.counts[k]) {  // others are booked as they are born
+        ParticleSystem& moved = lost > 0 ? scratch_.dead[k] : scratch_.born[k];
+        moved.add_copy(p, i);
+        moved.mass.back() = std::fabs(lost);
+      }
+      p.mass[i] -= lost;
+    }
   }
 
   /// Before a removal: updates the contacts found, which refer to particles by index.
@@ -298,6 +403,7 @@ class BodyEmission {
       if (!e.def || !e.def->body) continue;
       if (Status done = emit(e); !done) return done;
     }
+    if (Status done = emit_asked(); !done) return done;
     book(LedgerLine::emission);
     return {};
   }
@@ -308,12 +414,21 @@ class BodyEmission {
     std::vector<BodyId> leaving;
     for (Emitter& e : s_.emitters.list) {
       std::erase_if(e.bodies, [this](const Emitter::OwnBody& b) { return !s_.bodies.find(b.id); });
-      for (const Emitter::OwnBody& b : e.bodies)
-        if (b.dies <= end_) leaving.push_back(b.id);
+      for (const Emitter::OwnBody& b : e.bodies) {
+        if (!(b.dies <= end_)) continue;
+        leaving.push_back(b.id);
+        ask(e, SpawnRule::On::death, b.id, s_.time());
+      }
     }
+    std::vector<BodyId> held;
     for (uint32_t k = 0; k < s_.sinks.list.size(); ++k)
-      if (s_.sinks.ids.alive(k) && s_.sinks.list[k].takes_bodies)
-        add_held(s_.sinks.list[k], leaving);
+      if (s_.sinks.ids.alive(k) && s_.sinks.list[k].takes_bodies) add_held(s_.sinks.list[k], held);
+    std::ranges::sort(held);
+    for (const Emitter& e : s_.emitters.list)
+      for (const Emitter::OwnBody& b : e.bodies)
+        if (b.dies > end_ && std::ranges::binary_search(held, b.id))
+          ask(e, SpawnRule::On::sink, b.id, s_.time());
+    leaving.insert(leaving.end(), held.begin(), held.end());
     std::ranges::sort(leaving);
     leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
     for (const BodyId id : leaving) {
@@ -342,14 +457,47 @@ class BodyEmission {
     take_due(e, end_ - e.begun, births);
     for (const double birth : births) {
       const auto place = place_of(e);
-      if (!place || e.bodies.size() >= e.def->at_most) continue;
-      EmittedBody born = next_body(e, *place);
-      const BodyId id = s_.reserved.bodies.allocate();
-      if (Status done = apply_command(s_, CreateBody{id, std::move(born.def)}); !done) return done;
-      e.bodies.push_back({id, e.begun + birth + born.life});
-      changed_ = true;
+      if (!place) continue;
+      if (Status done = bear(e, *place, e.begun + birth); !done) return done;
     }
     return {};
+  }
+
+  /// What events have asked for; births may ask for more, but never in a circle.
+  Status emit_asked() {
+    const auto asked = [](const Emitter& e) { return e.def && e.def->body && !e.asked.empty(); };
+    for (;;) {
+      const auto e = std::ranges::find_if(s_.emitters.list, asked);
+      if (e == s_.emitters.list.end()) return {};
+      for (const Emitter::Asked& a : std::exchange(e->asked, {})) {
+        const double since = std::max(0.0, s_.time() - a.time);
+        const Vec3 x = a.x + since * a.v + (0.5 * since * since) * s_.settings.gravity;
+        const Vec3 v = a.v + since * s_.settings.gravity;
+        for (int i = 0; i < a.count; ++i)
+          if (Status done = bear(*e, {{x, e->def->pose.q}, x, v, Vec3::Zero()}, a.time); !done)
+            return done;
+      }
+    }
+  }
+
+  Status bear(Emitter& e, const EmissionPlace& place, double time) {
+    if (e.bodies.size() >= e.def->at_most) return {};
+    EmittedBody born = next_body(e, place, std::max(0.0, time - e.begun));
+    const BodyId id = s_.reserved.bodies.allocate();
+    if (Status done = apply_command(s_, CreateBody{id, std::move(born.def)}); !done) return done;
+    e.bodies.push_back({id, time + born.life, time});
+    changed_ = true;
+    ask(e, SpawnRule::On::birth, id, std::max(time, s_.time()));
+    return {};
+  }
+
+  /// The births that an event of a body asks for.
+  void ask(const Emitter& e, SpawnRule::On on, BodyId id, double time) {
+    const RigidBody* b = s_.bodies.find(id);
+    if (!b) return;
+    for (const SpawnRule& r : e.def->events)
+      if (Emitter* called = s_.emitters.find(r.emitter); called && r.on == on)
+        called->asked.push_back({b->pose.x, b->v, time, r.count});
   }
 
   std::optional<EmissionPlace> place_of(const Emitter& e) const {
@@ -427,10 +575,12 @@ Result<bool> emit_bodies(WorldState& s) {
 }
 
 bool emission_to_come(const WorldState& s) {
-  return std::ranges::any_of(s.emitters.list, [](const Emitter& e) {
-    return e.def && (!spent(e) || std::ranges::any_of(e.bodies, [](const Emitter::OwnBody& b) {
-             return std::isfinite(b.dies);
-           }));
+  const auto dies = [](const Emitter::OwnBody& b) { return std::isfinite(b.dies); };
+  const auto lives = [](const SpawnRule& r) { return r.on == SpawnRule::On::life; };
+  return std::ranges::any_of(s.emitters.list, [&](const Emitter& e) {
+    if (!e.def) return false;
+    const bool lively = !e.bodies.empty() && std::ranges::any_of(e.def->events, lives);
+    return lively || !e.asked.empty() || !spent(e) || std::ranges::any_of(e.bodies, dies);
   });
 }
 

@@ -15,16 +15,22 @@ struct SpawnCall {
   int count = 1;
 };
 
+/// A body whose collisions are events, and something that presses against it.
+struct BodyHit {
+  uint32_t slot = 0;
+  BodyId other;
+  Vec3 x = Vec3::Zero();  ///< where [m]
+};
+
 /// Scratch memory of the emission stage, kept from tick to tick.
 struct EmissionScratch {
   std::vector<SpawnCall> calls;
-  std::vector<double> births;  ///< times of births within the tick [s]
-  /// By particle of a system: whether it met something in the tick.
-  std::vector<uint8_t> hit;
-  /// By particle of a system: why it is removed, 0 if it stays.
-  std::vector<uint8_t> gone;
-  std::vector<uint32_t> places;            ///< by particle of a system: its index after the removal
-  std::vector<size_t> counts;              ///< number of particles before the births, by system
+  std::vector<double> births;      ///< times of births within the tick [s]
+  std::vector<uint8_t> hit;        ///< by particle of a system, or by slot of bodies: met something
+  std::vector<BodyHit> body_hits;  ///< by slot and other
+  std::vector<uint8_t> gone;       ///< likewise: why it is removed, 0 if it stays
+  std::vector<uint32_t> places;    ///< likewise: its index after removal
+  std::vector<size_t> counts;      ///< of particles, by system, before the births
   std::vector<ParticleSystem> born, dead;  ///< by system
 };
 

@@ -34,6 +34,36 @@ void for_numbers(Def& def, const F& f) {
   f(def.spin);
 }
 
+void write_course(ByteWriter& out, const EmissionCourse& course) {
+  EmissionCourse::for_factors(course, [&out](const FactorCurve& curve) {
+    out.value(uint64_t(curve.points.size()));
+    for (const auto& p : curve.points) {
+      out.value(p.time);
+      out.value(p.value);
+    }
+  });
+  out.value(uint64_t(course.colour.points.size()));
+  for (const auto& p : course.colour.points) {
+    out.value(p.time);
+    out.value(p.value);
+  }
+}
+
+template <class Curve>
+void read_curve(ByteReader& in, Curve& curve) {
+  const auto count = in.get<uint64_t>();
+  for (uint64_t i = 0; i < count && in.ok(); ++i) {
+    auto& p = curve.points.emplace_back();
+    in.value(p.time);
+    in.value(p.value);
+  }
+}
+
+void read_course(ByteReader& in, EmissionCourse& course) {
+  EmissionCourse::for_factors(course, [&in](FactorCurve& curve) { read_curve(in, curve); });
+  read_curve(in, course.colour);
+}
+
 void write_bursts(ByteWriter& out, const std::vector<Burst>& bursts) {
   out.value(uint64_t(bursts.size()));
   for (const Burst& b : bursts) {
@@ -71,7 +101,7 @@ void read_rules(ByteReader& in, std::vector<SpawnRule>& rules) {
   for (uint64_t i = 0; i < count && in.ok(); ++i) {
     SpawnRule& r = rules.emplace_back();
     in.value(r.on);
-    if (r.on > SpawnRule::On::collision) in.fail();
+    if (r.on > SpawnRule::On::sink) in.fail();
     in.value(r.emitter);
     in.value(r.count);
     in.value(r.rate);
@@ -102,8 +132,10 @@ void write_emitter_def(ByteWriter& out, const EmitterDef& def, ShapeStore& shape
   for_numbers(def, [&out](const RandomNumber& n) { write_number(out, n); });
   write_array(out, def.colours);
   write_array(out, def.size_over_life);
+  write_array(out, def.mass_over_life);
   write_array(out, def.colour_over_life);
   write_array(out, def.opacity_over_life);
+  write_course(out, def.over_time);
   out.value(uint8_t{def.any_orientation});
   write_rules(out, def.events);
   out.value(def.seed);
@@ -131,8 +163,10 @@ EmitterDef read_emitter_def(ByteReader& in, const ShapeStore& shapes) {
   for_numbers(def, [&in](RandomNumber& n) { read_number(in, n); });
   read_array(in, def.colours);
   read_array(in, def.size_over_life);
+  read_array(in, def.mass_over_life);
   read_array(in, def.colour_over_life);
   read_array(in, def.opacity_over_life);
+  read_course(in, def.over_time);
   def.any_orientation = read_flag(in);
   read_rules(in, def.events);
   in.value(def.seed);
@@ -180,6 +214,7 @@ void write_particles_def(ByteWriter& out, const ParticleSystemDef& def) {
     out.value(p.radius);
     out.value(p.colour);
     out.value(p.life);
+    out.value(p.spin);
   }
 }
 
@@ -206,6 +241,7 @@ ParticleSystemDef read_particles_def(ByteReader& in) {
     in.value(p.radius);
     in.value(p.colour);
     in.value(p.life);
+    in.value(p.spin);
     def.particles.push_back(p);
   }
   return def;

@@ -19,7 +19,8 @@ double energy_given(const WorldState& s) {
         LedgerLine::kinematic, LedgerLine::motors, LedgerLine::past_forces})
     sum += s.ledger.line(line).total().balance;
   for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
-    if (i < s.forces.size() && s.forces[i] && !is_spring(*s.forces[i]))
+    if (i < s.forces.size() && s.forces[i] &&
+        (!is_spring(*s.forces[i]) || follows_courses(*s.forces[i])))
       sum += s.ledger.forces()[i].account.total().balance;
   return sum;
 }

@@ -3,12 +3,37 @@
 #include "engine/world/world.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace tumble {
 namespace {
 
 Error no_keyframe() {
   return {ErrorCode::not_found, "there is no keyframe to go back to", {}, {}};
+}
+
+/// Brings a world that was put back to a keyframe on to `tick`, with the commands of that time,
+/// which `log` has: those of `tick` itself, too, for what was changed there belongs to the world as
+/// it was left. `next`, before each step, says whether to go on.
+Status go_on_to(World& world, uint64_t tick, const std::vector<LoggedCommand>& log,
+                const std::function<Result<bool>()>& next) {
+  // Commands logged at the keyframe's own tick were applied before it was taken or are still to
+  // come, which the snapshot's queue knows; later ones are submitted again when their tick comes.
+  size_t submitted = world.replay_log().entries().size();
+  const auto submit_due = [&]() -> Status {
+    while (submitted < log.size() && log[submitted].tick <= world.tick())
+      if (Status s = world.submit(log[submitted++].command); !s) return s;
+    return {};
+  };
+  while (world.tick() < tick) {
+    if (Status s = submit_due(); !s) return s;
+    const Result<bool> goes_on = next();
+    if (!goes_on) return goes_on.error();
+    if (!*goes_on) return {};
+    if (auto report = world.step(); !report) return report.error();
+  }
+  if (Status s = submit_due(); !s) return s;
+  return world.apply_commands();
 }
 
 }  // namespace
@@ -64,23 +89,31 @@ Status KeyframeRing::seek(World& world, uint64_t tick, std::shared_ptr<const Fra
   const std::vector<LoggedCommand> log = world.replay_log().entries();
   if (Status s = world.rewind(*from->snapshot); !s) return s;
   while (frames_.size() > 1 && frames_.back().tick > tick) drop_last();
-  // Commands logged at the keyframe's own tick were either applied before it was taken, or are in
-  // the snapshot's queue; later ones are submitted again when their tick comes.
-  size_t next = world.replay_log().entries().size();
-  const auto submit_due = [&]() -> Status {
-    while (next < log.size() && log[next].tick <= world.tick())
-      if (Status s = world.submit(log[next++].command); !s) return s;
-    return {};
-  };
-  while (world.tick() < tick) {
-    if (Status s = submit_due(); !s) return s;
-    // Frames are made on request, so only this one is.
+  return go_on_to(world, tick, log, [&]() -> Result<bool> {
+    // Frames are made when they are asked for: only the last one is.
     if (before && world.tick() + 1 == tick) *before = world.frame();
-    if (auto report = world.step(); !report) return report.error();
-  }
-  // Changes made at that tick itself are part of the world as it was left there.
-  if (Status s = submit_due(); !s) return s;
-  return world.apply_commands();
+    return true;
+  });
+}
+
+Status KeyframeRing::walk(World& world, uint64_t from,
+                          const std::function<bool(const World&)>& each) const {
+  if (frames_.empty()) return no_keyframe();
+  // One before it: what a tick tells besides its state is known after a step only.
+  auto start = std::lower_bound(frames_.begin(), frames_.end(), from,
+                                [](const Keyframe& k, uint64_t t) { return k.tick < t; });
+  if (start != frames_.begin()) --start;
+  const uint64_t end = world.tick();
+  const std::vector<LoggedCommand> log = world.replay_log().entries();
+  if (Status s = world.rewind(*start->snapshot); !s) return s;
+  bool goes_on = true;
+  const auto show = [&]() -> Result<bool> {
+    if (Status s = world.apply_commands(); !s) return s.error();
+    return goes_on = world.tick() < from || each(world);
+  };
+  if (Status s = go_on_to(world, end, log, show); !s || !goes_on) return s;
+  (void)each(world);
+  return {};
 }
 
 Status KeyframeRing::restart(World& world) {

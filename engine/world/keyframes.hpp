@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -31,6 +32,10 @@ class KeyframeRing {
   /// up to that tick, and repeats the steps and logged commands from there, those of that tick
   /// included. `before` gets the frame of the tick before it, or null if no step was repeated.
   Status seek(World& world, uint64_t tick, std::shared_ptr<const Frame>* before = nullptr);
+  /// Repeats the way that led to the present of `world`, from `from` or the first keyframe on:
+  /// `each` sees the world at every tick as it was left there, and says whether to go on. For a
+  /// world of the same history that nobody else looks at.
+  Status walk(World& world, uint64_t from, const std::function<bool(const World&)>& each) const;
   /// Brings the world to the first keyframe, without later changes at its tick.
   Status restart(World& world);
   uint64_t first_tick() const { return frames_.empty() ? 0 : frames_.front().tick; }

@@ -2,6 +2,7 @@
 #include "engine/core/prefetch.hpp"
 #include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/math/rotation.hpp"
+#include "engine/world/particle_frames.hpp"
 #include "engine/world/state.hpp"
 
 #include <algorithm>
@@ -217,71 +218,15 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(WorldState& s) {
   return out;
 }
 
-/// Range of values for the colours. Ticks update `seen`, which may not include the present values
-/// yet.
-ValueRange colour_range(const ParticleSystem& p, const std::vector<float>& values) {
-  if (!p.look.finds_range()) return {p.look.low, p.look.high};
-  ValueRange range = p.seen;
-  for (const float value : values)
-    if (std::isfinite(value)) range.include(double(value));
-  return range;
-}
-
-/// Fills in what the drawing of a liquid surface needs.
-void publish_surface(const ParticleSystem& p, ParticleFrame& out) {
-  out.v.clear();
-  out.share.clear();
-  if (p.look.style != ParticleStyle::surface || !p.fluid) return;
-  out.v.reserve(p.x.capacity());
-  out.share.reserve(p.x.capacity());
-  for (const Vec3& v : p.v) out.v.push_back(v.cast<float>());
-  for (const double density : p.density) out.share.push_back(float(density / p.fluid->density));
-}
-
-/// Fills in what the drawing of smoke needs.
-void publish_smoke(WorldState& s, const ParticleSystem& p, ParticleFrame& out) {
-  out.opacity.clear();
-  out.age.clear();
-  if (p.look.style != ParticleStyle::smoke) return;
-  out.opacity.reserve(p.x.capacity());
-  out.age.reserve(p.x.capacity());
-  for (size_t i = 0; i < p.size(); ++i) {
-    double opacity = p.look.opacity;
-    const Emitter* e = s.emitters.find(p.emitter[i]);
-    if (e && !e->def->opacity_over_life.empty())
-      opacity *= over_life(e->def->opacity_over_life, std::clamp(p.age[i] / p.life[i], 0.0, 1.0));
-    out.opacity.push_back(float(opacity));
-    out.age.push_back(float(p.age[i]));
-  }
-}
-
 /// Overwrites `out`, whose memory is reused.
 void make_particles(WorldState& s, std::vector<std::shared_ptr<const ParticleFrame>>& out) {
   out.clear();
+  const auto emitter = [&s](EmitterId id) -> const Emitter* { return s.emitters.find(id); };
   for (uint32_t i = 0; i < s.particles.size(); ++i) {
     if (!s.particle_ids.alive(i)) continue;
-    const ParticleSystem& p = s.particles[i];
     const auto f = s.frames.pool.particles.get();
     f->id = s.particle_ids.at(i);
-    f->name = p.name;
-    f->x.reserve(p.x.capacity());
-    f->radius.reserve(p.x.capacity());
-    f->mass.reserve(p.x.capacity());
-    f->colour.reserve(p.x.capacity());
-    f->ids.reserve(p.x.capacity());
-    f->x = p.x;
-    f->radius = p.radius;
-    f->mass = p.mass;
-    f->colour = p.colour;
-    f->box = p.box;
-    f->ids = p.id;
-    f->glow = p.glow;
-    f->measures = measure_particles(p);
-    f->look = p.look;
-    quantity_values(p, f->value);
-    f->range = colour_range(p, f->value);
-    publish_surface(p, *f);
-    publish_smoke(s, p, *f);
+    show_particles(s.particles[i], emitter, *f);
     out.push_back(f);
   }
 }

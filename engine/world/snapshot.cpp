@@ -15,14 +15,19 @@ constexpr uint32_t version = 1;
 /// body. 5: rolling and torsional friction. 6: no patch radius for torsion. 7: by body where a body
 /// with several shapes is paired as a whole.
 constexpr uint32_t contacts_version = 7;
-/// 3: how particles collide. 4: life, emitter, glow, charge, periodic boxes. 5: fluids and grains.
-/// 6: looks, densities of fluids. 7: sub-steps of grains.
-constexpr uint32_t particles_version = 7;
+/// 3: how they collide. 4: their life, where they are from, glow, charge, periodic boxes.
+/// 5: fluids and grains. 6: looks, densities of fluids. 7: sub-steps of grains. 8: mass at birth,
+/// trails.
+constexpr uint32_t particles_version = 8;
 constexpr uint32_t grain_touches_version = 3;
-constexpr uint32_t sensors_version = 1;
+/// 2: numbers that follow courses.
+constexpr uint32_t forces_version = 2;
+/// 2: radial distributions.
+constexpr uint32_t sensors_version = 2;
 /// 2: opacity over life. 3: bodies as in version 7. 4: as in version 8. 5: as in version 9.
-constexpr uint32_t emitters_version = 5;
-/// 2: drives and values of coordinates. 3: couplings of coordinates; courses of motors.
+/// 6: values over time, mass over life; when bodies were born, what they touch, births asked for.
+constexpr uint32_t emitters_version = 6;
+/// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
 constexpr uint32_t joints_version = 3;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: time-stepped ticks of bodies. 4: of particles.
@@ -34,14 +39,17 @@ constexpr uint32_t event_version = 4;
 constexpr uint32_t bodies_version = 9;
 /// 2: the line `offset`. 3: emission and removal. 4: fluids. 5: motors of joints.
 constexpr uint32_t ledger_version = 5;
-/// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: `precise`; shapes
-/// store only the parameters that they use. 6: opacity of looks; rolling and torsional friction. 7:
-/// settings without damping of bodies nearly at rest. 8: emitters and sinks, life and glow of
-/// particles. 9: fluids and grains. 10: looks of particles. 11: friction of bodies with fluids. 12:
-/// drives of joints, breaking. 13: couplings of coordinates; courses of motors and bodies; bodies
-/// as in version 7 of theirs. 14: sensors. 15: sub-steps of grains; bodies as in version 8 of
-/// theirs. 16: redefinition of live particles and emitters. 17: bodies as in version 9 of theirs.
-constexpr uint32_t queue_version = 17;
+/// 2: ids of joints. 3: how particles collide. 4: inertia and group of bodies. 5: whether they are
+/// solved precisely; shapes have the numbers that they use. 6: opacity of looks; rolling and
+/// torsional friction. 7: settings without damping of what is nearly at rest. 8: emitters and
+/// sinks, life and glow of particles. 9: fluids and grains. 10: looks of particles.
+/// 11: friction of bodies with fluids. 12: what acts along coordinates of joints, breaking.
+/// 13: what couples coordinates; courses of motors and bodies; bodies as in version 7 of theirs.
+/// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
+/// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
+/// 18: emitters as in version 6 of theirs; spins of particles; sensors as in version 2; trails.
+/// 19: forces as in version 2 of theirs.
+constexpr uint32_t queue_version = 19;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -137,7 +145,7 @@ Status read_bodies(ByteReader& in, WorldState& s) {
 }
 
 void write_forces(ByteWriter& out, const WorldState& s) {
-  out.begin_section("forces", version);
+  out.begin_section("forces", forces_version);
   s.force_ids.save(out);
   for (uint32_t i = 0; i < s.force_ids.capacity(); ++i)
     if (s.force_ids.alive(i)) write_force_def(out, *s.forces[i]);
@@ -145,7 +153,7 @@ void write_forces(ByteWriter& out, const WorldState& s) {
 }
 
 void read_forces(ByteReader& in, WorldState& s) {
-  in.begin_section("forces");
+  if (in.begin_section("forces") != forces_version) return in.fail();
   s.force_ids.load(in);
   s.forces.assign(in.ok() ? s.force_ids.capacity() : 0, std::nullopt);
   for (uint32_t i = 0; i < s.forces.size() && in.ok(); ++i)
@@ -186,6 +194,15 @@ void write_emitters(ByteWriter& out, const WorldState& s) {
     for (const Emitter::OwnBody& b : e.bodies) {
       out.value(b.id);
       out.value(b.dies);
+      out.value(b.born);
+      out.vector(b.touching);
+    }
+    out.value(uint64_t(e.asked.size()));
+    for (const Emitter::Asked& a : e.asked) {
+      out.value(a.x);
+      out.value(a.v);
+      out.value(a.time);
+      out.value(a.count);
     }
   }
   s.sinks.ids.save(out);
@@ -209,6 +226,16 @@ void read_emitter(ByteReader& in, WorldState& s, Emitter& e) {
     Emitter::OwnBody& b = e.bodies.emplace_back();
     in.value(b.id);
     in.value(b.dies);
+    in.value(b.born);
+    in.vector(b.touching);
+  }
+  const auto asked = in.get<uint64_t>();
+  for (uint64_t i = 0; i < asked && in.ok(); ++i) {
+    Emitter::Asked& a = e.asked.emplace_back();
+    in.value(a.x);
+    in.value(a.v);
+    in.value(a.time);
+    in.value(a.count);
   }
 }
 

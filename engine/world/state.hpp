@@ -195,6 +195,7 @@ struct WorldState {
 
   // -- derived by each tick, or scratch
   std::vector<uint32_t> on_course;  ///< slots of bodies whose definition has a course, ascending
+  std::vector<uint32_t> forces_on_course;  ///< slots of forces that follow any, ascending
   Methods methods;
   Workspace workspace;
   Roster roster;

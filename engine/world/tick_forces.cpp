@@ -9,6 +9,16 @@
 namespace tumble {
 namespace {
 
+/// A force at a moment of a tick: as its courses have it then, a copy for this thread, which the
+/// next replaces.
+const ForceDef& at_moment(const ForceDef& def, double t) {
+  if (!follows_courses(def)) return def;
+  thread_local ForceDef now;
+  now = def;
+  go_to(now, t);
+  return now;
+}
+
 /// Whether a force is attached to a particle that is not a block.
 bool holds_particles(const ForceDef& def, const ForceContext& context) {
   const Anchors ends = anchors(def);
@@ -90,12 +100,12 @@ void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   context.momentary = true;
   context.t += t;
   context.only = bodies;
-  for (const uint32_t i : fields_) tumble::apply(*s.forces[i], context);
+  for (const uint32_t i : fields_) tumble::apply(at_moment(*s.forces[i], context.t), context);
   for (const uint32_t slot : bodies)
     for (const uint32_t i : anchored_[slot]) {
       if (stop_requested()) return;
       charge_work(60);
-      tumble::apply(*s.forces[i], context);
+      tumble::apply(at_moment(*s.forces[i], context.t), context);
     }
   for (const uint32_t slot : bodies)
     for (const uint32_t i : driven_[slot])
@@ -284,7 +294,7 @@ CauseEffect TickForces::effect(uint32_t force, ForceContext& context,
     if (fluids) sum.lost = sum.work;
     return sum;  // the potential accounts for all but the damper
   }
-  const ForceDef& def = *s.forces[force];
+  const ForceDef& def = at_moment(*s.forces[force], context.t);
   const std::vector<uint32_t> touched = held_slots(def, context);
   const std::span<const uint32_t> acted =
       touched.empty() ? bodies : std::span<const uint32_t>(touched);

@@ -55,6 +55,7 @@ Status apply_queue(WorldState& s) {
 
 /// A tick after its commands were applied. If `repeatable`, a still state is repeated.
 Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
+  const CourseSupply supply(s);
   if (Status done = follow_courses(s); !done) return done;
   s.before.stats = s.stats;
   s.before.ledger = s.ledger;
@@ -66,6 +67,7 @@ Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
     stepped = stepper.step(s);
   }
   if (stepped) {
+    supply.book(s);
     ++s.tick;
     s.mark_active();
     const ScopedStage stage(s.profiler, "measure");
@@ -79,6 +81,7 @@ Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
     }
   }
   if (!stepped) {
+    reset_forces(s);
     s.stats = s.before.stats;
     s.ledger = s.before.ledger;
     s.islands = {};

@@ -266,11 +266,8 @@ Status validate_reserved(const EmitterDef& def, WorldState& s) {
   for (const SpawnRule& r : def.events) {
     if (!r.emitter.is_null()) {
       if (!s.reserved.emitters.contains(r.emitter)) return missing("emitter of an event");
-      const EmitterDef* called = emitter_to_be(s, r.emitter);
-      if (!called || called->particles.is_null())
-        return emitter_error(def, ErrorCode::invalid_argument, "events make particles, not bodies");
     }
-    if (r.on == SpawnRule::On::collision && !detects(s, def.particles))
+    if (r.on == SpawnRule::On::collision && !def.body && !detects(s, def.particles))
       return emitter_error(def, ErrorCode::invalid_argument,
                            "collisions of this particle system are not looked for",
                            "set its detect, or fast");
@@ -294,12 +291,6 @@ Status World::set_emitter(EmitterId id, EmitterDef def) {
   if (leads_to(s, def, id))
     return emitter_error(def, ErrorCode::invalid_argument,
                          "events lead from it back to it, which would never end");
-  bool called = false;
-  for_emitters_to_be(s, [&](EmitterId, const EmitterDef& other) {
-    for (const SpawnRule& r : other.events) called = called || r.emitter == id;
-  });
-  if (called && def.particles.is_null())
-    return emitter_error(def, ErrorCode::invalid_argument, "events make particles, not bodies");
   s.queue.push_back(SetEmitter{id, std::move(def)});
   return {};
 }

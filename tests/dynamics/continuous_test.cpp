@@ -280,6 +280,29 @@ TEST_CASE("blows give a needle no energy, whatever it turns by in a tick") {
   }
 }
 
+TEST_CASE("boxes, hulls and meshes stop at a sheet of triangles from either side") {
+  TriangleMesh wedge;
+  wedge.vertices = {{-0.1, 0, -0.1}, {0.1, 0, -0.1}, {0, 0, 0.1}, {0, 0.1, 0}};
+  for (const double from : {1.0, -1.0}) {
+    for (const double speed : {300.0, 30.0, 3.0, 0.3}) {
+      for (const ShapeDef& shape : {box(0.01, 0.01, 0.01), box(0.2, 0.1, 0.2), hull(wedge),
+                                    mesh(make_mesh::torus(0.1, 0.04, 10, 6))}) {
+        CAPTURE(from);
+        CAPTURE(speed);
+        RigidWorld w;
+        w.gravity.setZero();
+        w.fixed(sheet());
+        BodyDef d = body(shape, {0.1, 0.4 * from, 0.2});
+        d.velocity = {0, -speed * from, 0};
+        d.angular_velocity = {0.3, 0.2, 0.1};
+        const uint32_t i = w.add(d);
+        w.run(0.6 / speed + 0.1);
+        CHECK(w.bodies[i].pose.x.y() * from > 0);
+      }
+    }
+  }
+}
+
 TEST_CASE("round bodies stop at a sheet of triangles from either side") {
   for (const double from : {1.0, -1.0}) {
     for (const double speed : {300.0, 30.0, 3.0, 0.3}) {

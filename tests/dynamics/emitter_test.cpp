@@ -1,6 +1,6 @@
 // Emitters without a world. References: mean and variance of uniform distributions over segments,
 // discs, balls, boxes and tori in closed form; chi-square at the 99.9 % quantile with fixed seeds;
-// counts by integer arithmetic.
+// counts by integer arithmetic; integrals of curves by sums of a million rectangles.
 #include "engine/dynamics/particles/emitter.hpp"
 
 #include "engine/dynamics/particles/emission_bounds.hpp"
@@ -381,4 +381,86 @@ TEST_CASE("sinks hold what is in them") {
   CHECK(validate(sink).ok());
   sink.region = SphereSink{0};
   CHECK(!validate(sink).ok());
+}
+
+TEST_CASE("a curve over time: its values, its integral and the inverse of that") {
+  FactorCurve curve;
+  CHECK(curve.at(3) == 1);
+  CHECK(curve.integral(1, 4) == 3);
+  curve.points = {{1, 0.5}, {2, 2}, {4, 0}, {5, 1}};
+  CHECK(curve.at(0) == 0.5);
+  CHECK(curve.at(1.5) == doctest::Approx(1.25));
+  CHECK(curve.at(3) == doctest::Approx(1));
+  CHECK(curve.at(9) == 1);
+  for (const auto& [from, to] : {std::pair{0.0, 0.7}, {0.0, 6.0}, {1.3, 1.9}, {1.7, 4.4}}) {
+    constexpr int parts = 1'000'000;
+    double sum = 0;
+    for (int i = 0; i < parts; ++i) sum += curve.at(from + (to - from) * (i + 0.5) / parts);
+    const double expected = sum * (to - from) / parts;
+    CHECK(curve.integral(from, to) == doctest::Approx(expected).epsilon(1e-9));
+    CHECK(curve.time_of_integral(from, expected) == doctest::Approx(to).epsilon(1e-7));
+  }
+  curve.points = {{0, 1}, {2, 0}};
+  CHECK(curve.integral(0, EmitterDef::for_ever) == doctest::Approx(1));
+  CHECK(curve.time_of_integral(0, 1.5) == EmitterDef::for_ever);
+}
+
+TEST_CASE("a rate over time: the count is the whole part of its integral, for any ticks") {
+  EmitterDef def = into_particles();
+  def.rate = 90;
+  def.start = 0.5;
+  def.end = 3.5;
+  def.over_time.rate.points = {{0.5, 0}, {1.5, 1}, {2.5, 0.5}};
+  REQUIRE(validate(def).ok());
+  // Half of 90 in the first second, three quarters in the second, a half in the third.
+  CHECK(count_by_rate(def, 1.5) == 45);
+  CHECK(count_by_rate(def, 2.5) == 112);
+  CHECK(count_by_rate(def, 9) == 157);
+  std::vector<double> first;
+  for (const double h : {1.0 / 60, 1.0 / 7}) {
+    Emitter e = live(def);
+    std::vector<double> births;
+    for (double t = h; t < 4; t += h) take_due(e, t, births);
+    REQUIRE(births.size() == 157);
+    CHECK(spent(e));
+    // Rising by the square: number k is due at the root of 2 k / 90.
+    for (int k = 1; k <= 45; ++k)
+      CHECK(births[size_t(k) - 1] == doctest::Approx(0.5 + std::sqrt(2.0 * k / 90)));
+    if (first.empty()) first = births;
+    for (size_t i = 0; i < first.size(); ++i) CHECK(births[i] == doctest::Approx(first[i]));
+  }
+  def.end = EmitterDef::for_ever;
+  def.life = {EmitterDef::for_ever};
+  CHECK_FALSE(validate(def).ok());  // it goes on at half the rate
+  def.over_time.rate.points.push_back({4, 0});
+  CHECK(validate(def).ok());
+  def.over_time.rate.points.push_back({4, 0});
+  CHECK_FALSE(validate(def).ok());
+}
+
+TEST_CASE("values over the emitter's time are factors of what is drawn") {
+  EmitterDef def = into_particles();
+  def.speed = {3, 1};
+  def.life = {2, 1};
+  def.mass = {0.5};
+  def.spin = {10, 2};
+  Emitter plain = live(def);
+  def.over_time.speed.points = {{0, 1}, {2, 3}};
+  def.over_time.life.points = {{0, 1}, {4, 0.5}};
+  def.over_time.mass.points = {{1, 2}};
+  def.over_time.spin.points = {{0, 0}, {2, -1}};
+  def.over_time.colour.points = {{0, Vec3f(1, 0, 0)}, {2, Vec3f(0, 0, 1)}};
+  Emitter changing = live(def);
+  const EmissionPlace place;
+  for (int n = 0; n < 100; ++n) {
+    const ParticleDef was = next_particle(plain, place);
+    const ParticleDef is = next_particle(changing, place, 1);
+    CHECK(is.v.y() == doctest::Approx(2 * was.v.y()));
+    CHECK(is.life == doctest::Approx(0.875 * was.life));
+    CHECK(is.mass == 1);
+    CHECK((is.spin + 0.5 * was.spin).norm() < 1e-12);
+    CHECK(was.spin.norm() >= 8);
+    CHECK(was.spin.norm() <= 12);
+    CHECK((is.colour - Vec3f(0.5f, 0, 0.5f)).norm() < 1e-6f);
+  }
 }

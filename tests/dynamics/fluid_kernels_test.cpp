@@ -186,12 +186,17 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
       open.set(k, vu, vu.dot(points[k]));
       differ.set(k, vu, volume[k]);
     }
+    FluidTriples three;
+    three.resize(places);
+    for (size_t k = 0; k + 1 < places; ++k)
+      three.put(k, {{push.data()[k], open.data()[k], differ.data()[k]}});
     const auto at = [&](size_t k) { return points[k]; };
     const auto speed = [&](size_t k) { return u[k]; };
     for (size_t i = 0; i < x.size(); i += 7) {
       double share = 0, squares = 0, rate = 0, slopes = 0;
       double moved = 0;  // sum of the sizes of the rate's terms
       size_t pairs = 0;
+      Mat3 moment = Mat3::Zero(), square_matrix = Mat3::Zero();
       Vec3 gradient = Vec3::Zero(), pressed = Vec3::Zero(), viscous = Vec3::Zero(),
            smooth = Vec3::Zero();
       for (size_t j = 0; j < x.size(); ++j) {
@@ -205,6 +210,8 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         share += v * kernel.value(distance);
         gradient += v * f * d;
         squares += v * (f * d).squaredNorm();
+        moment -= v * f * d * d.transpose();
+        square_matrix += v * f * f * d * d.transpose();
         pressed += v * f * (p[i] + p[j]) * d;
         rate += v * f * du.dot(d);
         moved += v * std::abs(f) * du.norm() * distance;
@@ -220,7 +227,10 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         hwy::SetSupportedTargetsForTest(target);
         FluidPairStore store;
         store.clear(kernel, lists.of(i).size());
-        const FluidPairSums s = find_pairs(kernel, {points.data(), places}, i, lists.of(i), store);
+        const FluidPairSums s =
+            find_pairs(kernel, FluidMoments::found, {points.data(), places}, i, lists.of(i), store);
+        FluidTriple tripled;
+        sum_pairs(store, FluidFactor::slope, i, {&s.range, 1}, three.data(), q.data(), &tripled);
         const auto sum = [&](FluidFactor factor, const FluidVectors& y, const double* of) {
           FluidVector found;
           sum_pairs(store, factor, i, {&s.range, 1}, y.data(), of, &found);
@@ -238,6 +248,15 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         CHECK(s.share == doctest::Approx(share).epsilon(1e-6));
         CHECK(s.squares == doctest::Approx(squares).epsilon(1e-6));
         CHECK(s.slopes == doctest::Approx(slopes).epsilon(1e-6));
+        CHECK((s.moment - moment).norm() <= 1e-6 * moment.norm());
+        CHECK((s.square_matrix - square_matrix).norm() <= 1e-6 * square_matrix.norm());
+        // Twelve numbers are three times four.
+        const FluidVectors* const each[] = {&push, &open, &differ};
+        for (size_t k = 0; k < 3; ++k) {
+          const FluidVector four = sum(FluidFactor::slope, *each[k], q.data());
+          CHECK(tripled.parts[k].vector() == four.vector());
+          CHECK(tripled.parts[k].w == four.w);
+        }
         // One factor for all: a pair's is the same for both, and then what they exchange is.
         CHECK(sum(FluidFactor::slope, differ, nullptr).w ==
               doctest::Approx(s.slopes).epsilon(1e-12));
@@ -246,7 +265,9 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         CHECK(std::abs(b - rate) <= 1e-6 * moved);
         CHECK(close(c, viscous, 1e-6));
         CHECK(close(d, smooth, 1e-6));
-        const std::vector<double> now{s.share, s.squares, s.slopes, s.gx, a[0], b, c[1], d[2]};
+        const std::vector<double> now{
+            s.share, s.squares, s.slopes, s.gx, s.moment(0, 1), s.square_matrix(1, 2),
+            a[0],    b,         c[1],     d[2]};
         if (bits.empty()) bits = now;
         CHECK(bits == now);
       }

@@ -65,7 +65,7 @@ TEST_CASE("drag at one moment is what its definition says, on the bodies asked f
   QuadraticDragDef drag;
   drag.wind = {0, 0, 4};
   apply(drag, again);
-  const Vec3 u = b.v - drag.wind;
+  const Vec3 u = b.v - drag.wind.now();
   const double area = 3.14159265358979323846 * b.bounding_radius * b.bounding_radius;
   CHECK((b.force + 0.5 * 1.2 * 0.47 * area * u.norm() * u).norm() < 1e-12 * b.force.norm());
 }

@@ -42,7 +42,7 @@ struct Rooms {
   }
 };
 const Rooms dynamics{"engine/dynamics/",
-                     {"bodies", "particles", "forces", "sph", "rows", "joints", "contact",
+                     {"simd", "bodies", "particles", "forces", "sph", "rows", "joints", "contact",
                       "islands", "realtime", "grains", "event"}};
 const Rooms program{
     "viewer/app/",

@@ -19,7 +19,7 @@ TEST_CASE("numbers of dynamics, lcp and world have their reasons in tolerances.h
   // A constant, a unit, the default of a value that scenes give.
   const std::regex unit("constexpr double (pi|second|percent|default_\\w+) = .*");
   // A member that callers or scenes set, with what it means beside its default.
-  const std::regex option("\\s+double \\w+ = [^;]+;\\s+///<.*");
+  const std::regex option("\\s+(double|Varying) \\w+ = [^;]+;\\s+///<.*");
   const std::regex settings(".*_settings\\.[ch]pp");
   int files = 0;
   for (const char* room :

@@ -328,7 +328,7 @@ TEST_CASE("rolling friction under the event stepper, whether the scene or the us
 TEST_CASE("the scene with every key is built and steps") {
   BuiltScene s = built(load_scene(data_file("everything.json")));
   CHECK(s.bodies.size() == 2 + 5 + 8 + 5 + 10 + 2 + 2);
-  CHECK(s.forces.size() == 9);
+  CHECK(s.forces.size() == 11);
   for (int i = 0; i < 10; ++i) REQUIRE(s.world->step().ok());
   CHECK(s.world->tick() == 10);
   CHECK(s.world->time() == doctest::Approx(10.0 / 120));

@@ -68,6 +68,26 @@ TEST_CASE("fireworks: each rocket that died has burst into its number of sparks"
   for (size_t i = 0; i < sparks.size(); ++i) CHECK(sparks.age[i] < sparks.life[i]);
 }
 
+TEST_CASE("volley: shots come ever faster, smoke all along, strike with dust and chips") {
+  BuiltScene s = shipped("volley");
+  run(s, 3);
+  const Emitter& shots = emitter_named(s, "shot");
+  // Two a second by a factor that rises from 0.6 by 0.1 a second: 4.5.
+  CHECK(shots.made == 4);
+  double flown = 0;
+  for (int k = 1; k <= 4; ++k) {
+    const double t = -6 + std::sqrt(36 + 10.0 * k);  // 2 (0.6 t + 0.05 t^2) = k
+    flown += std::floor(45 * (3 - t));
+  }
+  CHECK(emitter_named(s, "puff").made == 4 * 14 + uint64_t(flown));
+  // The first two are down: they fly for about 1.3 s.
+  const uint64_t dust = emitter_named(s, "cloud").made;
+  CHECK(dust >= 2 * 8);
+  CHECK(dust % 8 == 0);
+  CHECK(emitter_named(s, "flash").made == 3 * dust);
+  CHECK(emitter_named(s, "chips").made == std::min<uint64_t>(120, dust / 4));  // no more at once
+}
+
 TEST_CASE("conveyor: nine bodies a second come, and as many go, and none falls beside the belt") {
   BuiltScene s = shipped("conveyor");
   run(s, 10);

@@ -5,6 +5,8 @@
 #include "tests/scene/scene_text.hpp"
 #include "tests/support/why_not.hpp"
 
+#include <fmt/format.h>
+
 using namespace tumble;
 
 namespace {
@@ -260,6 +262,24 @@ TEST_CASE("a fluid that would fall for ever is a fault, unless it is meant to") 
   built("\"settings\": {\"gravity\": [0, 0, 0]}, " + drop(""));
 }
 
+TEST_CASE("a fluid of two spacings is a fault") {
+  const auto two = [](double spacing) {
+    return fmt::format(
+        "\"particles\": {{\"w\": {{\"gravity_scale\": 0, \"fluid\": {{}}, \"fill\": ["
+        "{{\"type\": \"lattice\", \"size\": [0.2, 0.2, 0.2], \"spacing\": 0.05}}, "
+        "{{\"type\": \"lattice\", \"centre\": [0.3, 0, 0], \"size\": [0.2, 0.2, 0.2], "
+        "\"spacing\": {}}}]}}}}",
+        spacing);
+  };
+  built(two(0.05));
+  built(two(0.06));
+  const std::string fault = fault_of(two(0.1));
+  CHECK_MESSAGE(fault.find("particles.w: particles of this fluid have spacings from 0.05 m to "
+                           "0.1 m") != std::string::npos,
+                fault);
+  CHECK(fault.find("fill all of it with about the same \"spacing\"") != std::string::npos);
+}
+
 TEST_CASE("crowds by events are counted before the run, and collisions need to be looked for") {
   const auto two = [](const std::string& event, const std::string& dust) {
     return "\"particles\": {\"dust\": {" + dust +
@@ -297,4 +317,41 @@ TEST_CASE("sinks in a scene: what they take, and their faults") {
         0);
   CHECK(fault_of(parts + "\"type\": \"plane\", \"particles\": [\"dirt\"]}}")
             .find("sinks.hole.particles[0]: ") != std::string::npos);
+}
+
+TEST_CASE("a scene says how an emitter changes with its time, and what bodies give birth to") {
+  BuiltScene s = built(
+      "\"particles\": {\"dust\": {\"fast\": true}, \"sand\": {\"grains\": {}}},\n"
+      "\"bodies\": {\"crate\": {\"present\": false, \"shape\": {\"type\": \"box\", \"size\": [1, "
+      "1, 1]}}},\n"
+      "\"emitters\": {\"puff\": {\"particles\": \"dust\", \"life\": 9},\n"
+      "\"grit\": {\"particles\": \"sand\", \"rate\": 60, \"end\": 1, \"spin\": 4, \"life\": 9,\n"
+      "\"shape\": {\"type\": \"disc\", \"radius\": 5},\n"
+      "\"mass_over_life\": [1, 0.5],\n"
+      "\"over_time\": [{\"time\": 0, \"rate\": 0}, {\"time\": 1, \"rate\": 1, \"colour\": "
+      "\"#ff0000\"}]},\n"
+      "\"drop\": {\"body\": \"crate\", \"rate\": 2, \"count\": 1, \"position\": [0, 50, 0], "
+      "\"life\": 0.4,\n"
+      "\"events\": [{\"event\": \"death\", \"emitter\": \"puff\", \"count\": 7}]}}");
+  for (int n = 0; n < 60; ++n) REQUIRE(s.world->step().ok());
+  CHECK(s.world->emitter(s.emitters.at("grit"))->made == 30);  // half of 60
+  const ParticleSystem& sand = *s.world->particles(s.particles.at("sand"));
+  REQUIRE(sand.size() == 30);
+  CHECK(sand.spin[29].norm() == doctest::Approx(4));
+  CHECK(sand.colour[29].x() == doctest::Approx(1));
+  CHECK(sand.mass[0] < sand.born_mass[0]);
+  CHECK(s.world->emitter(s.emitters.at("puff"))->made == 7);
+}
+
+TEST_CASE("values over time that cannot be are faults at their place") {
+  const std::string jet = "\"particles\": \"dust\", \"rate\": 9, \"life\": 1, ";
+  check_fault(jet + "\"over_time\": [{\"time\": 2}, {\"time\": 1}]",
+              "emitters.jet.over_time[1].time: must be later than the one before");
+  check_fault(jet + "\"over_time\": [{\"time\": 0, \"mass\": 0}]",
+              "emitters.jet.over_time[0].mass");
+  check_fault(jet + "\"spin\": 3", "emitters.jet.spin: the particles of 'dust' do not turn");
+  check_fault(
+      "\"body\": \"box\", \"rate\": 1, \"at_most\": 5, "
+      "\"over_time\": [{\"time\": 0, \"radius\": 2}]",
+      "emitters.jet.over_time[0].radius: is of particles only");
 }

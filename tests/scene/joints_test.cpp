@@ -138,6 +138,7 @@ TEST_CASE("couplings that no motion fulfils are faults") {
   says(circle("\"ratio\": 2", "\"ratio\": 2"),
        "joints.j: is coupled to itself (through 'l', 'k', 'j') by x = 8 x + 10 deg, which only "
        "-1.42857 deg fulfils");
+  says(circle("\"ratio\": 2", R"("ratio": 0.25, "offset_deg": -10)"), "by x = x - 10 deg, which");
   says(circle("\"ratio\": 2", "\"ratio\": 0.25"), "by x = x + 10 deg, which nothing fulfils");
   with_joints(circle("\"ratio\": 2", R"("ratio": 0.25, "offset_deg": -5)"));
   // Motors of any strength: j = -2 k, so 1 rad/s here is -0.5 rad/s there.

@@ -294,6 +294,10 @@ TEST_CASE("hulls and pieces say how far they are from their mesh, unless they ar
     CHECK(of_star[0].find(fmt::format("{:.3g} times the mesh's volume", ratio)) !=
           std::string::npos);
     CHECK(warnings(box, shape).empty());
+    // Once for a mesh, however many bodies are of it.
+    CHECK(with_modes(star + "\"bodies\": {\"b\": {\"shape\": " + shape +
+                     "}, \"c\": {\"position\": [9, 9, 9], \"shape\": " + shape + "}}")
+              .warnings.size() == 1);
   }
   const std::string pieces =
       R"({"type": "mesh", "mesh": "m", "mode": "decomposition", "pieces": 1})";

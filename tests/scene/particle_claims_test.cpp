@@ -53,7 +53,15 @@ TEST_CASE(
   const auto& energies = s.world->frame()->stats.energies;
   const double kinetic = energies.kinetic, total = energies.total();
   CHECK(between_shells() == 0);
+  const auto peak = [&s] {
+    for (const SensorFrame& sensor : *s.world->frame()->sensors)
+      for (const SensorValue& value : sensor_values(sensor))
+        if (value.name == "peak") return value.value;
+    return 0.0;
+  };
+  const double order = peak();
   run(s, 3);
+  CHECK(peak() < 0.5 * order);
   CHECK(between_shells() > 1);
   const auto& now = s.world->frame()->stats.energies;
   CHECK(now.kinetic < 0.65 * kinetic);

@@ -477,3 +477,77 @@ TEST_CASE("emitters and sinks that name what is not there are refused, and go wi
   CHECK(w->emitter(id) == nullptr);
   CHECK(w->particles(dust)->size() == 100);
 }
+
+TEST_CASE("mass over life: what is lost leaves with its velocity, and the books have it") {
+  TestWorld w;
+  const ParticleSystemId dust = system_of(w);
+  EmitterDef def = jet(dust);
+  def.rate = 0;
+  def.bursts = {{0, 10, 1, 1}};
+  def.mass = {2};
+  def.life = {1};
+  def.mass_over_life = {1, 0.25, 0.5};
+  emitter(w, def);
+  for (int n = 1; n <= 54; ++n) {
+    w.step();
+    const ParticleSystem& p = *w->particles(dust);
+    REQUIRE(p.size() == 10);
+    const double u = p.age[0];
+    const double factor = u < 0.5 ? 1 - 1.5 * u : 0.25 + 0.5 * (u - 0.5);
+    for (size_t i = 0; i < p.size(); ++i) {
+      CHECK(p.mass[i] == doctest::Approx(2 * factor));
+      CHECK(p.v[i].y() == doctest::Approx(5 - g * u));  // nothing pushes it
+    }
+  }
+  CHECK(std::fabs(w->frame()->ledger->drift()) < 1e-9 * w->frame()->ledger->throughput());
+  const double lost = total(w, LedgerLine::removal).momentum.y();
+  CHECK(lost < 0);
+}
+
+TEST_CASE("grains are born with a spin, and keep it where nothing touches them") {
+  TestWorld w;
+  ParticleSystemDef grains;
+  grains.name = "grains";
+  grains.grains.emplace();
+  const auto id = w->create_particles(grains);
+  REQUIRE(id.ok());
+  w.apply();
+  EmitterDef def = jet(*id);
+  def.rate = 60;
+  def.shape = DiscEmission{5};
+  def.spin = {30};
+  emitter(w, def);
+  w.run(0.5);
+  const ParticleSystem& p = *w->particles(*id);
+  REQUIRE(p.size() == 30);
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& spin : p.spin) {
+    CHECK(spin.norm() == doctest::Approx(30));
+    mean += spin / 30;
+  }
+  CHECK(mean.norm() < 3 * 30 / std::sqrt(30.0));  // about any axis
+}
+
+TEST_CASE("a sink's event has the place at which the particle was taken") {
+  TestWorld w;
+  const ParticleSystemId dust = system_of(w);
+  EmitterDef spark = jet(dust);
+  spark.rate = 0;
+  spark.speed = {0};
+  spark.inherit = 0;
+  const EmitterId sparks = emitter(w, spark);
+  EmitterDef drop = jet(dust);
+  drop.rate = 0;
+  drop.speed = {0};
+  drop.bursts = {{0, 1, 1, 1}};
+  drop.pose.x = {0, 1, 0};
+  drop.events = {{SpawnRule::On::sink, sparks, 3, 0, false}};
+  const EmitterId drops = emitter(w, drop);
+  SinkDef sink;
+  sink.region = BoxSink{{1, 0.4, 1}};
+  REQUIRE(w->create_sink(sink).ok());
+  for (int n = 0; n < 60 && w->emitter(sparks)->made == 0; ++n) w.step();
+  CHECK(w->emitter(sparks)->made == 3);
+  CHECK(w->emitter(drops)->alive == 0);
+  for (const Vec3& x : w->particles(dust)->x) CHECK(std::fabs(x.y()) < 0.2);
+}

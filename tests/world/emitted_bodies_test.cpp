@@ -4,6 +4,7 @@
 #include "tests/support/test_world.hpp"
 #include "tests/support/why_not.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -157,15 +158,151 @@ TEST_CASE("a carried emitter throws bodies with the carrier's velocity") {
   CHECK(b->pose.x.x() == doctest::Approx(3).epsilon(0.02));
 }
 
-TEST_CASE("events do not make bodies") {
-  TestWorld w;
-  const EmitterId bodies = emitter(w, feeder(1));
-  ParticleSystemDef dust;
-  const auto system = w->create_particles(dust);
-  REQUIRE(system.ok());
+namespace {
+
+ParticleSystemId smoke_of(TestWorld& w) {
+  ParticleSystemDef def;
+  def.name = "smoke";
+  def.collide = false;
+  def.gravity_scale = 0;
+  const auto id = w->create_particles(def);
+  REQUIRE(id.ok());
+  w.apply();
+  return *id;
+}
+
+/// Puffs that stay where they are.
+EmitterId puffs(TestWorld& w, ParticleSystemId smoke, double inherit = 0) {
   EmitterDef def;
-  def.particles = *system;
-  def.life = {1};
-  def.events = {{SpawnRule::On::death, bodies, 1, 0, false}};
-  CHECK(!w->create_emitter(def).ok());
+  def.name = "puff";
+  def.particles = smoke;
+  def.life = {100};
+  def.inherit = inherit;
+  def.at_most = 10000;
+  return emitter(w, def);
+}
+
+}  // namespace
+
+TEST_CASE("bodies leave particles at birth, along their way and at death, where they are then") {
+  TestWorld w;
+  const ParticleSystemId smoke = smoke_of(w);
+  const EmitterId puff = puffs(w, smoke);
+  EmitterDef def = feeder(0);
+  def.bursts = {{0, 1, 1, 1}};
+  def.speed = {4};
+  def.life = {0.5};
+  def.events = {{SpawnRule::On::birth, puff, 2, 0, false},
+                {SpawnRule::On::life, puff, 1, 40, false},
+                {SpawnRule::On::death, puff, 5, 0, false}};
+  emitter(w, def);
+  w.run(0.7);
+  CHECK(w->frame()->stats.bodies == 0);
+  const ParticleSystem& p = *w->particles(smoke);
+  // At 1/40 s, 2/40 s ... until the tick that its life ends in, before which it goes; in a tick it
+  // goes straight.
+  REQUIRE(p.size() == 2 + 19 + 5);
+  const auto height = [](double t) { return 3 + 4 * t - 0.5 * 9.81 * t * t; };
+  const double rough = 0.5 * 9.81 / 60 / 60;
+  CHECK(std::ranges::count_if(p.x, [&](const Vec3& x) { return x.y() == 3; }) == 2);
+  for (int k = 1; k <= 19; ++k) {
+    const double y = height(k / 40.0);
+    CHECK(std::ranges::any_of(p.x, [&](const Vec3& x) { return std::fabs(x.y() - y) < rough; }));
+  }
+  CHECK(std::ranges::count_if(
+            p.x, [&](const Vec3& x) { return std::fabs(x.y() - height(0.5)) < 4.0 / 60; }) >= 5);
+}
+
+TEST_CASE("a body that strikes the ground raises dust there once, and again when it comes back") {
+  for (const char* stepper : {"realtime", "event"}) {
+    CAPTURE(stepper);
+    WorldSettings settings;
+    settings.stepper = stepper;
+    TestWorld w(settings);
+    w.ground();
+    const ParticleSystemId smoke = smoke_of(w);
+    const EmitterId puff = puffs(w, smoke);
+    EmitterDef def = feeder(0);
+    def.pose.x = {0.5, 1, 0};
+    def.bursts = {{0, 1, 1, 1}};
+    def.events = {{SpawnRule::On::collision, puff, 4, 0, false}};
+    emitter(w, def);
+    w.run(0.4);  // it would fall for 0.428 s
+    CHECK(w->emitter(puff)->made == 0);
+    w.run(1.6);
+    CHECK(w->emitter(puff)->made == 4);
+    for (const Vec3& x : w->particles(smoke)->x) {
+      CHECK(std::fabs(x.y()) < 0.02);
+      CHECK(std::fabs(x.x() - 0.5) < 0.11);
+    }
+    const BodyId part = w->find_body("part[0]");
+    REQUIRE(w->set_pose(part, Pose{{3, 0.5, 0}, Quat::Identity()}).ok());
+    w.run(1);
+    CHECK(w->emitter(puff)->made == 8);
+  }
+}
+
+TEST_CASE("particles give birth to bodies, bodies to bodies, and a body dies of a collision") {
+  TestWorld w;
+  w.ground();
+  const ParticleSystemId smoke = smoke_of(w);
+  EmitterDef chip = feeder(0);
+  chip.name = "chip";
+  chip.pose.x.setZero();
+  chip.shape = SphereEmission{0.3};
+  chip.life = {0.5};
+  const EmitterId chips = emitter(w, chip);
+  EmitterDef crate = feeder(0);
+  crate.name = "crate";
+  crate.pose.x.setZero();
+  crate.events = {{SpawnRule::On::collision, chips, 3, 0, true},
+                  {SpawnRule::On::death, chips, 2, 0, false}};
+  const EmitterId crates = emitter(w, crate);
+  EmitterDef rocket;
+  rocket.name = "rocket";
+  rocket.particles = smoke;
+  rocket.bursts = {{0, 1, 1, 1}};
+  rocket.life = {0.5};
+  rocket.speed = {4};
+  rocket.events = {{SpawnRule::On::death, crates, 1, 0, false}};
+  emitter(w, rocket);
+  w.run(0.5);
+  CHECK(w->emitter(crates)->made == 0);
+  w.run(2.0 / 60);
+  REQUIRE(w->emitter(crates)->made == 1);
+  const RigidBody* body = w->body(w->find_body("crate[0]"));
+  REQUIRE(body);
+  CHECK(body->pose.x.y() == doctest::Approx(4 * 0.5).epsilon(0.1));
+  CHECK(body->v.y() == doctest::Approx(4).epsilon(0.1));
+  const Bytes saved = w->save();
+  w.run(1.2);  // it rises 0.8 m, falls 2.8 m: 1.17 s
+  CHECK(w->emitter(chips)->made == 5);
+  CHECK(w->find_body("crate[0]").is_null());
+  TestWorld later;
+  REQUIRE(later->load(saved).ok());
+  later.run(1.2);
+  CHECK(later->state_hash() == w->state_hash());
+  w.run(1);
+  CHECK(w->emitter(chips)->bodies.empty());
+}
+
+TEST_CASE("a body that a sink takes calls for others, in the same bits for any threads") {
+  std::vector<uint64_t> hashes;
+  for (const int threads : {1, 4}) {
+    TestWorld w({}, threads);
+    const ParticleSystemId smoke = smoke_of(w);
+    const EmitterId puff = puffs(w, smoke, 0.5);
+    EmitterDef def = feeder(12);
+    def.events = {{SpawnRule::On::sink, puff, 3, 0, false}};
+    emitter(w, def);
+    SinkDef sink;
+    sink.takes_bodies = true;
+    sink.takes_particles = false;
+    REQUIRE(w->create_sink(sink).ok());
+    w.run(2);
+    CHECK(w->emitter(puff)->made > 0);
+    CHECK(w->emitter(puff)->made % 3 == 0);
+    hashes.push_back(w->state_hash());
+  }
+  CHECK(hashes[0] == hashes[1]);
 }

@@ -196,7 +196,7 @@ TEST_CASE("definitions that make no sense are refused, with the key") {
   turbulence.size = std::nan("");
   refused(turbulence, "size");
   WindDef wind;
-  wind.velocity.x() = std::nan("");
+  wind.velocity.of[0] = std::nan("");
   refused(wind, "velocity");
 }
 

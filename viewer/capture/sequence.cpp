@@ -61,12 +61,26 @@ void remove_frames_from(const fs::path& folder, uint64_t first) {
   for (const fs::path& file : stale) fs::remove(file, code);
 }
 
+/// The end of a sequence whose world could not be brought on.
+SequenceEnd end_by(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::cancelled:
+      return SequenceEnd::stopped;
+    case ErrorCode::io:
+    case ErrorCode::parse:
+    case ErrorCode::not_found:
+      return SequenceEnd::cannot_read;
+    default:
+      return SequenceEnd::broken_down;
+  }
+}
+
 /// The run of one sequence: what the stages share.
 class Run {
  public:
   Run(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options)
       : scene_(scene), plan_(plan), options_(options), extract_options_(options.extract) {
-    from_ = to_ = scene.world.frame();
+    from_ = to_ = scene.start;
     trails_.start(options.trail_seconds);
     trails_.see(*to_);
   }
@@ -100,15 +114,9 @@ Run::Outcome Run::simulate_to(uint64_t tick, const StopSignal& stop) {
   const Timed timed(plan_.times.simulate);
   while (scene_.world.tick() < tick) {
     if (stop.requested()) return SequenceResult{SequenceEnd::stopped, {}};
-    if (auto report = scene_.world.step(); !report) {
-      if (report.error().code == ErrorCode::cancelled)
-        return SequenceResult{SequenceEnd::stopped, {}};
-      return SequenceResult{SequenceEnd::broken_down, report.error()};
-    }
-    if (scene_.after_tick)
-      if (Status done = scene_.after_tick(scene_.world); !done)
-        return SequenceResult{SequenceEnd::broken_down, done.error()};
-    from_ = std::exchange(to_, scene_.world.frame());
+    auto next = scene_.advance(scene_.world, tick);
+    if (!next) return SequenceResult{end_by(next.error()), next.error()};
+    from_ = std::exchange(to_, *std::move(next));
     trails_.see(*to_);
   }
   return {};

@@ -27,11 +27,13 @@ struct SequenceOptions {
 
 /// What a sequence is made with; all outlive the run.
 struct SequenceScene {
-  World& world;  ///< at tick 0
+  World& world;                        ///< at tick 0
+  std::shared_ptr<const Frame> start;  ///< what is to be seen of it then
   Renderer& renderer;
   RenderScene look;  ///< camera, light and ground; content is filled in
   std::function<Camera(const Frame& from, const Frame& to, double s)> camera;
-  std::function<Status(World&)> after_tick;  ///< changes the world between ticks; may be empty
+  /// Brings the world nearer to a later tick and gives its frame; called until it is there.
+  std::function<Result<std::shared_ptr<const Frame>>(World&, uint64_t tick)> advance;
 };
 
 /// Why a sequence ended.
@@ -40,6 +42,7 @@ enum class SequenceEnd {
   stopped,  ///< by a signal
   cannot_write,
   cannot_draw,
+  cannot_read,  ///< what the world was to be brought on by
   broken_down,  ///< the simulation failed
   diverged,     ///< resumed, but the simulation is not the one that was interrupted
 };

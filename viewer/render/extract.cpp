@@ -7,6 +7,7 @@
 #include "viewer/render/extract_soft.hpp"
 #include "viewer/render/extract_weaves.hpp"
 #include "viewer/render/friction_cones.hpp"
+#include "viewer/render/particle_colours.hpp"
 
 #include <array>
 #include <cmath>
@@ -61,12 +62,6 @@ void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& ou
   label.size = 15;
   label.anchor = Vec3f(0.5f, 1, 0);
   out.texts.push_back(label);
-}
-
-/// The scale that the colours of a system are on: the look's range, else what there was, rounded so
-/// that it seldom changes.
-NiceScale colour_scale(const ParticleFrame& p) {
-  return nice_scale(p.range.low, p.range.high, p.look.finds_range());
 }
 
 void add_particle_legend(const ParticleFrame& p, const NiceScale& scale, RenderScene& out) {
@@ -144,6 +139,10 @@ std::vector<bool> outlined_slots(const Frame& frame, const ExtractOptions& optio
 }
 
 }  // namespace
+
+NiceScale colour_scale(const ParticleFrame& p) {
+  return nice_scale(p.range.low, p.range.high, p.look.finds_range());
+}
 
 MeshRef ShapeMeshes::find_or_make(const std::shared_ptr<const Shape>& shape) {
   const auto found = meshes_.find(shape.get());

@@ -87,6 +87,7 @@ std::string label_of(const SensorFrame& s) {
                  : fmt::format("{}: {}, {:.3g} kg/s", s.name, s.forward + s.backward, s.flow);
     case SensorKind::region:
       return fmt::format("{}: {}, {:.3g} kg", s.name, s.inside.size() + s.particles, s.mass);
+    case SensorKind::radial:  // is nowhere
     case SensorKind::contact:
       break;
   }
@@ -117,7 +118,7 @@ bool is_there(const Frame& frame, BodyId id) {
 void add_sensors(const Frame& frame, const std::vector<Pose>& poses, RenderScene& out) {
   if (!frame.sensors) return;
   for (const SensorFrame& s : *frame.sensors) {
-    if (s.gone) continue;
+    if (s.gone || s.kind == SensorKind::radial) continue;
     const Vec4f& colour = answers(s) ? overlay_colour::sensing : overlay_colour::sensor;
     if (s.kind == SensorKind::contact) {
       if (is_there(frame, s.a)) add_label(s, poses[s.a.index].x, colour, out);

@@ -37,6 +37,7 @@ void Trails::start(double seconds) {
 }
 
 void Trails::see(const Frame& frame) {
+  particles_.see(frame);
   if (!(seconds_ > 0)) return;
   if (interval_ == 0) interval_ = interval_for(frame, seconds_);
   while (!samples_.empty() && samples_.back().tick > frame.tick) samples_.pop_back();
@@ -67,6 +68,7 @@ void Trails::keep(const Frame& frame) {
 }
 
 void Trails::draw(const Frame& from, const Frame& to, double s, RenderScene& out) const {
+  particles_.draw(from, to, s, out);
   if (samples_.empty()) return;
   const double now = from.time + s * (to.time - from.time);
   const auto opacity = [&](double time) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/world/frame.hpp"
+#include "viewer/render/particle_trails.hpp"
 #include "viewer/render/render_scene.hpp"
 
 #include <deque>
@@ -9,8 +10,8 @@ namespace tumble {
 
 /// The paths of moving bodies over the last seconds, drawn as lines that fade with age. Fed with
 /// frames as they come; places are kept at every n-th tick, n fixed by the first frame, so that
-/// what is drawn does not depend on when pictures are made. One more path: of particles, say, needs
-/// places of their own here.
+/// what is drawn does not depend on when pictures are made. Particles have paths of the length that
+/// their look says.
 class Trails {
  public:
   /// How far back paths reach [s]; 0: none are kept. Forgets what was seen before.
@@ -39,6 +40,7 @@ class Trails {
   std::vector<BodyId> jumped_;  ///< since the newest sample
   uint64_t seen_tick_ = 0;      ///< of the latest frame
   bool came_back_ = false;      ///< to that tick
+  ParticleTrails particles_;
 };
 
 }  // namespace tumble

@@ -7,11 +7,13 @@
 #include "viewer/ui/style.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 namespace tumble {
 namespace {
@@ -148,6 +150,102 @@ bool shape_numbers(ParameterWidgets& widgets, ShapeDef& shape) {
   return false;
 }
 
+/// Where a shape is in its body, as files have it. True when that was changed.
+bool shape_place(ParameterWidgets& widgets, Pose& pose) {
+  Placement place;
+  place.position = pose.x;
+  Vec3 angles = quat_to_euler_deg(pose.q);
+  widgets.field(place.position, {.name = "position",
+                                 .unit = "m",
+                                 .min = -1e7,
+                                 .max = 1e7,
+                                 .doc = "of the shape, in the body's frame"});
+  const bool moved = widgets.changed;
+  widgets.field(angles, {.name = "euler_deg",
+                         .unit = "deg",
+                         .min = -1e6,
+                         .max = 1e6,
+                         .doc = "turns about x, then the new y, then the new z"});
+  if (!widgets.changed) return false;
+  pose.x = place.position;
+  if (!moved) pose.q = euler_deg_to_quat(angles);
+  return true;
+}
+
+bool is_of_mesh(const BodyShapeDef& part) {
+  return part.source || made_of_mesh(part.shape.type);
+}
+
+/// Takes the shape away; true when that was asked for.
+bool draw_removal(PanelContext& context, const BodyDef& def, size_t index) {
+  if (def.shapes.size() < 2 || is_of_mesh(def.shapes[index])) return false;
+  ImGui::PushID(int(index));
+  const bool remove = ImGui::Button("Remove this shape");
+  ImGui::PopID();
+  context.host.mark(fmt::format("inspector.shape.{}.remove", index));
+  if (remove)
+    context.ask(EditBody{context.model.selected, deed(context, def, "shapes"), [index](BodyDef& d) {
+                           if (index < d.shapes.size() && d.shapes.size() > 1)
+                             d.shapes.erase(d.shapes.begin() + std::ptrdiff_t(index));
+                         }});
+  return remove;
+}
+
+/// One more shape, of the material of the first, on top of the others.
+BodyShapeDef fresh_shape(const BodyDef& def, ShapeType type) {
+  BodyShapeDef out;
+  out.shape.type = type;
+  double top = 0;
+  for (const BodyShapeDef& part : def.shapes)
+    if (const auto made = make_shape(part.shape))
+      if (const double y = (*made)->bounds(part.pose).max.y(); std::isfinite(y)) top = y;
+  if (!def.shapes.empty()) out.material = def.shapes[0].material;
+  // As large as half of a unit: its numbers are below, to be changed.
+  constexpr double size = 0.5;
+  out.shape.radius *= size;
+  out.shape.top_radius *= size;
+  out.shape.height *= size;
+  out.shape.half_extents *= size;
+  if (const auto made = make_shape(out.shape))
+    if (const double below = (*made)->bounds({}).min.y(); std::isfinite(below))
+      out.pose.x = Vec3(0, top - below, 0);
+  return out;
+}
+
+void draw_shape_choice(PanelContext& context, const BodyDef& def) {
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##add shape", "add a shape ...")) {
+    for (const ShapeEntry& entry : all_shapes()) {
+      if (made_of_mesh(entry.type)) continue;
+      const auto made = make_shape(fresh_shape(def, entry.type).shape);
+      if (!made || !std::isfinite((*made)->bounding_radius())) continue;
+      const std::string name(entry.name);
+      if (ImGui::Selectable(label_of(name).c_str()))
+        context.ask(EditBody{
+            context.model.selected, deed(context, def, "shapes"),
+            [type = entry.type](BodyDef& d) { d.shapes.push_back(fresh_shape(d, type)); }});
+      context.host.mark("inspector.add_shape." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context.host.mark("inspector.add_shape");
+}
+
+/// What the scene calls it, here and wherever it is named.
+void draw_name(PanelContext& context, const BodyDef& def) {
+  if (is_copy(def) || def.name.empty()) return;
+  ImGui::AlignTextToFramePadding();
+  small_text(context, "name", palette::dim);
+  ImGui::SameLine(64);
+  ImGui::SetNextItemWidth(-1);
+  std::string name = def.name;
+  if (ImGui::InputText("##name", &name, ImGuiInputTextFlags_EnterReturnsTrue) && name != def.name)
+    context.ask(EditBody{context.model.selected, "Rename " + def.name,
+                         [name](BodyDef& d) { d.name = name; }});
+  context.host.mark("inspector.name");
+  tooltip_with_key(context, "what the scene calls it, wherever it is named", {});
+}
+
 void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) {
   BodyShapeDef part = def.shapes[index];
   const std::string prefix = fmt::format("inspector.shape.{}", index);
@@ -156,14 +254,18 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
     context.ask(
         EditBody{context.model.selected, deed(context, def, widgets.edited), std::move(change)});
   };
+  if (!is_copy(def) && draw_removal(context, def, index)) return;
   ImGui::BeginDisabled(is_copy(def));
-  const bool shape_changed = shape_numbers(widgets, part.shape);
+  bool shape_changed = shape_numbers(widgets, part.shape);
+  if (!shape_changed && !is_of_mesh(part)) shape_changed = shape_place(widgets, part.pose);
   ImGui::EndDisabled();
   if (is_copy(def)) say_it_is_of_all_copies(context, def);
   if (shape_changed) {
     // A mass that was only ever the shapes' follows them.
-    ask([index, shape = part.shape](BodyDef& d) {
-      if (index < d.shapes.size()) d.shapes[index].shape = shape;
+    ask([index, shape = part.shape, pose = part.pose](BodyDef& d) {
+      if (index >= d.shapes.size()) return;
+      d.shapes[index].shape = shape;
+      d.shapes[index].pose = pose;
     });
     return;
   }
@@ -186,6 +288,7 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
 void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef& def) {
   const auto slot = find_slot(*context.model.frame, body.id);
   if (!slot) return;
+  draw_name(context, def);
   draw_mesh_form(context, def);
   draw_body_values(context, body, context.model.frame->info(*slot), def);
   constexpr size_t most = 8;
@@ -196,6 +299,7 @@ void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef&
     context.host.mark(fmt::format("inspector.shape.{}", i));
     if (open) draw_shape_values(context, def, i);
   }
+  if (!is_copy(def)) draw_shape_choice(context, def);
   if (def.shapes.size() > most)
     small_text(context, fmt::format("and {} more shapes", def.shapes.size() - most),
                palette::faint);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -12,18 +13,48 @@ namespace tumble {
 /// How world B is drawn: as a ghost in the picture of A, in a picture of its own beside it, or not.
 enum class ComparedAs : uint8_t { ghost, beside, hidden };
 
-/// World A, which is shown, beside world B, which differs in settings: what panels show of it.
+/// What may be chosen for a world of a scene, and otherwise for a second one beside it.
+struct WorldChoice {
+  WorldSettings settings;
+  std::vector<std::pair<std::string, double>> numbers;  ///< that the scene declares, by name
+  int threads = 0;                                      ///< 0: one per core
+  std::string simd;                                     ///< of simd_targets(); "": the best one
+};
+
+/// A value that two worlds have otherwise.
+struct WorldDifference {
+  std::string path;              ///< as --set has it: "settings.stepper", "parameters.balls";
+                                 ///< "threads" and "simd" are of no scene
+  std::string value_a, value_b;  ///< as --set has them
+  std::string words_a, words_b;  ///< for people: "event", "gravity 0 -1.6 0 m/s2"
+};
+
+/// A contact that two worlds have otherwise.
+struct ContactDifference {
+  BodyId a, b;
+  Vec3 x_world = Vec3::Zero();  ///< [m]
+  std::string what;             ///< "ball and floor: only in A"
+  uint64_t tick = 0;            ///< of A
+};
+
+/// World A, which is shown, beside world B, which differs in what was chosen: what panels show.
 struct WorldComparison {
-  WorldSettings settings;              ///< of B
-  std::vector<double> times;           ///< of the latest moments that both have [s]
-  std::vector<float> distances;        ///< greatest, then, of bodies and particles [m]
-  double distance = 0, angle = 0;      ///< now [m], [rad]
-  double worst = 0;                    ///< greatest so far [m]
-  std::string what;                    ///< where it is greatest now; "": nowhere
-  std::optional<uint64_t> first_tick;  ///< of A, from which on they differ; none: they do not
-  std::string first_what;              ///< what differed first
-  BodyId first_body;                   ///< null when that is no body, or gone
-  std::string fault;                   ///< why B has stopped; "": it has not
+  WorldChoice choice;                        ///< of B
+  std::vector<WorldDifference> differences;  ///< in what A and B differ now
+  bool from_start = false;                   ///< B has other numbers: both began at the start
+  bool opening = false;                      ///< B is being made
+  bool alone = false;                        ///< it is not made of the same bodies as A:
+                                             ///< what is done to A is not done to it
+  std::vector<double> times;                 ///< of the latest moments that both have [s]
+  std::vector<float> distances;              ///< greatest, then, of bodies and particles [m]
+  double distance = 0, angle = 0;            ///< now [m], [rad]
+  double worst = 0;                          ///< greatest so far [m]
+  std::string what;                          ///< where it is greatest now; "": nowhere
+  std::optional<uint64_t> first_tick;        ///< of A, from which on they differ; none: they do not
+  std::string first_what;                    ///< what differed first
+  BodyId first_body;                         ///< null when that is no body, or gone
+  std::optional<ContactDifference> first_contact;  ///< that differed; none: all are the same
+  std::string fault;                               ///< why B has stopped; "": it has not
 };
 
 }  // namespace tumble

@@ -24,9 +24,9 @@ struct Axis {
   double share(double v) const { return (v - low) / (high - low); }
 };
 
-Axis axis_over(std::span<const TimeCurve> curves, double lines) {
+Axis axis_over(std::span<const PlottedCurve> curves, double lines) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const TimeCurve& curve : curves)
+  for (const PlottedCurve& curve : curves)
     for (const float v : curve.values)
       if (std::isfinite(v)) {
         low = std::min(low, double(v));
@@ -50,17 +50,17 @@ Axis axis_over(std::span<const TimeCurve> curves, double lines) {
 }
 
 /// One a unit, and which of them each curve has.
-std::vector<Axis> axes_of(std::span<const TimeCurve> curves, double lines,
+std::vector<Axis> axes_of(std::span<const PlottedCurve> curves, double lines,
                           std::vector<size_t>& of_curve) {
   std::vector<std::string_view> units;
-  for (const TimeCurve& curve : curves) {
+  for (const PlottedCurve& curve : curves) {
     const auto known = std::ranges::find(units, curve.unit);
     of_curve.push_back(size_t(known - units.begin()));
     if (known == units.end()) units.push_back(curve.unit);
   }
   std::vector<Axis> axes;
   for (size_t k = 0; k < units.size(); ++k) {
-    std::vector<TimeCurve> same;
+    std::vector<PlottedCurve> same;
     for (size_t i = 0; i < curves.size(); ++i)
       if (of_curve[i] == k) same.push_back(curves[i]);
     axes.push_back(axis_over(same, lines));
@@ -157,7 +157,7 @@ std::optional<size_t> sample_at(std::span<const double> at, double time) {
 }
 
 /// Time and values under the pointer; a click goes there.
-void read_over_time(PanelContext& context, std::span<const TimeCurve> curves, const PlotFrame& f,
+void read_over_time(PanelContext& context, std::span<const PlottedCurve> curves, const PlotFrame& f,
                     double from, double to) {
   if (!ImGui::IsItemHovered() || !(to > from)) return;
   const float x = std::clamp(ImGui::GetIO().MousePos.x, f.x0, f.x1);
@@ -165,7 +165,7 @@ void read_over_time(PanelContext& context, std::span<const TimeCurve> curves, co
   const auto nearest = sample_at(curves[0].at, time);
   if (nearest) time = curves[0].at[*nearest];
   std::string text = fmt::format("{:.3f} s", time);
-  for (const TimeCurve& curve : curves)
+  for (const PlottedCurve& curve : curves)
     if (const auto i = sample_at(curve.at, time))
       text +=
           fmt::format("\n{}: {}", curve.label, quantity_text(double(curve.values[*i]), curve.unit));
@@ -181,7 +181,7 @@ struct PhasePoint {
   double time;
   float x, y;
 };
-std::vector<PhasePoint> pairs_of(const TimeCurve& across, const TimeCurve& up) {
+std::vector<PhasePoint> pairs_of(const PlottedCurve& across, const PlottedCurve& up) {
   std::vector<PhasePoint> out;
   for (size_t i = 0, k = 0; i < across.at.size() && k < up.at.size();) {
     if (across.at[i] < up.at[k])
@@ -207,15 +207,15 @@ double round_step(double range, double lines) {
   return 10 * power;
 }
 
-void plot_over_time(PanelContext& context, std::string_view name, std::span<const TimeCurve> curves,
-                    float height) {
+void plot_over_time(PanelContext& context, std::string_view name,
+                    std::span<const PlottedCurve> curves, float height) {
   if (curves.empty()) return;
   PlotFrame f = begin_plot(context, name, height);
   std::vector<size_t> axis_of;
   std::vector<Axis> axes = axes_of(curves, std::max(double(f.y0 - f.y1) / 34, 1.0), axis_of);
   draw_value_axes(context, axes, f);
   double from = std::numeric_limits<double>::infinity(), to = -from;
-  for (const TimeCurve& curve : curves)
+  for (const PlottedCurve& curve : curves)
     if (!curve.at.empty()) {
       from = std::min(from, curve.at.front());
       to = std::max(to, curve.at.back());
@@ -242,8 +242,8 @@ void plot_over_time(PanelContext& context, std::string_view name, std::span<cons
   read_over_time(context, curves, f, from, to);
 }
 
-void plot_phase(PanelContext& context, std::string_view name, const TimeCurve& across,
-                const TimeCurve& up, float height) {
+void plot_phase(PanelContext& context, std::string_view name, const PlottedCurve& across,
+                const PlottedCurve& up, float height) {
   PlotFrame f = begin_plot(context, name, height);
   const Axis y = axis_over(std::span(&up, 1), std::max(double(f.y0 - f.y1) / 34, 1.0));
   draw_value_axes(context, std::span(&y, 1), f);

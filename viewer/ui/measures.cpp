@@ -172,6 +172,32 @@ void Measures::see(const Frame& frame, bool ahead) {
   }
 }
 
+void Measures::want_past() {
+  for (Series& s : series_) s.wants_past = true;
+}
+
+void Measures::forget_past() {
+  for (Series& s : series_) s.wants_past = false;
+}
+
+void Measures::fill(const std::string& name, const std::vector<double>& at,
+                    const std::vector<float>& values) {
+  const auto found = std::ranges::find(
+      series_, name, [](const Series& s) -> const std::string& { return s.quantity.name; });
+  if (found == series_.end()) return;
+  found->wants_past = false;
+  std::map<double, float> all;
+  for (size_t i = 0; i < std::min(at.size(), values.size()); ++i) all.emplace(at[i], values[i]);
+  for (size_t i = 0; i < found->at.size(); ++i) all[found->at[i]] = found->values[i];
+  while (all.size() > capacity) all.erase(all.begin());
+  found->at.clear();
+  found->values.clear();
+  for (const auto& [time, value] : all) {
+    found->at.push_back(time);
+    found->values.push_back(value);
+  }
+}
+
 void Measures::restart() {
   for (Series& s : series_) {
     s.at.clear();

@@ -37,10 +37,19 @@ class Measures {
     Quantity quantity;
     std::vector<double> at;  ///< ascending [s]
     std::vector<float> values;
+    bool wants_past = false;  ///< it was not watched from the start, and that can be made good
   };
 
   /// One more; a quantity of that name is not added twice.
   void add(Quantity quantity, const Frame& now);
+  /// Somebody went where nobody has seen the way to, or has watched for a while only: all of them
+  /// want their past. Until fill() or forget_past().
+  void want_past();
+  void want_past(size_t index) { series_.at(index).wants_past = true; }
+  void forget_past();
+  /// The past of one of them (ascending times), where it has no value yet.
+  void fill(const std::string& name, const std::vector<double>& at,
+            const std::vector<float>& values);
   void remove(size_t index);
   /// Once for every new frame. `ahead`: what was seen after it will come once more.
   void see(const Frame& frame, bool ahead);

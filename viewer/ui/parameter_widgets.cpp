@@ -139,6 +139,61 @@ void ParameterWidgets::field(TickRate& value, const Parameter& p) {
   end(p);
 }
 
+bool ParameterWidgets::over_time(bool& on, const Parameter& p) {
+  const std::string label = label_of(p.name) + " over time";
+  if (!toggle(context_, mark_name(p) + ".over_time", label.c_str(), on)) return false;
+  tooltip_with_key(context_, "follows an expression in t [s]", {});
+  note_change(p);
+  return true;
+}
+
+void ParameterWidgets::course(Varying& value, const Parameter& p) {
+  const TimeCourse& now = *value.course;
+  if (now.text().empty())
+    return value_row(label_of(p.name), fmt::format("a table of {} times", now.points().size()));
+  begin(p, true);
+  char text[256] = {};
+  now.text().copy(text, sizeof text - 1);
+  if (ImGui::InputText(id(p), text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const auto made = now.with_text(text);
+    std::string fault = made ? fault_of(made->at(0), p) : made.error().message;
+    if (takes(std::move(fault), p)) value = *made;
+  }
+  end(p);
+}
+
+void ParameterWidgets::field(Varying& value, const Parameter& p) {
+  bool on = value.varies();
+  on ? course(value, p) : field(value.value, p);
+  if (!over_time(on, p)) return;
+  if (on)
+    value = *TimeCourse::expression(fmt::format("{}", value.value));
+  else
+    value.course = nullptr;
+}
+
+void ParameterWidgets::field(VaryingVec3& value, const Parameter& p) {
+  bool on = value.varies();
+  if (!on) {
+    Vec3 now = value.now();
+    field(now, p);
+    value = now;
+  }
+  for (size_t k = 0; on && k < 3; ++k) {
+    Parameter one = p;
+    const std::string name = fmt::format("{}.{}", p.name, "xyz"[k]);
+    one.name = name;
+    value.of[k].varies() ? course(value.of[k], one) : field(value.of[k].value, one);
+  }
+  if (!over_time(on, p)) return;
+  for (Varying& x : value.of) {
+    if (on)
+      x = *TimeCourse::expression(fmt::format("{}", x.value));
+    else
+      x.course = nullptr;
+  }
+}
+
 void ParameterWidgets::field(Colour& value, const Parameter& p) {
   begin(p);
   float rgb[3] = {float(value.r), float(value.g), float(value.b)};

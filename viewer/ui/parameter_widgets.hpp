@@ -37,6 +37,9 @@ class ParameterWidgets {
   void field(bool& value, const Parameter& p);
   void field(Vec3& value, const Parameter& p);
   void field(TickRate& value, const Parameter& p);
+  /// A number, or the expression that it follows over time, and a switch between the two.
+  void field(Varying& value, const Parameter& p);
+  void field(VaryingVec3& value, const Parameter& p);
   void field(Colour& value, const Parameter& p);
   /// One of the names that are known for this parameter; else it is only shown.
   void field(std::string& value, const Parameter& p);
@@ -73,6 +76,10 @@ class ParameterWidgets {
   void end(const Parameter& p);
   std::string mark_name(const Parameter& p) const;
   const char* id(const Parameter& p);
+  /// A switch between a number and an expression; true when it was pressed.
+  bool over_time(bool& on, const Parameter& p);
+  /// The expression that a number follows; a table is only shown.
+  void course(Varying& value, const Parameter& p);
 
   PanelContext& context_;
   std::string prefix_;

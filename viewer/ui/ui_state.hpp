@@ -123,6 +123,7 @@ struct UiModel {
   const History* history = nullptr;
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
+  std::optional<double> past_share;  ///< of the past of curves, computed; none: nothing is
   const TimeMarks* marks = &no_time_marks;
   const TickClock* clock = &usual_tick_clock;
   const RulerView* ruler = &no_rulers;
@@ -205,6 +206,8 @@ struct RemoveCurve {
   size_t index = 0;
 };
 struct WriteMeasures {};
+/// The past of curves is not computed.
+struct LeavePast {};
 /// The same of a quantity by the name that assertions know it by.
 struct AddNamedCurve {
   std::string name;
@@ -281,9 +284,9 @@ struct RemovePart {
   std::string name;
   PartDescription part;
 };
-/// World B beside this one from now on, with these settings; also where there is one already.
+/// World B beside this one from now on, as it is chosen here; also where there is one already.
 struct Compare {
-  WorldSettings settings;
+  WorldChoice choice;
 };
 struct EndCompare {};
 /// The answer of this number to the model's question.
@@ -306,7 +309,7 @@ using UiRequest =
                  DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
                  BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
                  EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
-                 RemoveReading, RemoveFlightKey, FollowFromKey>;
+                 RemoveReading, RemoveFlightKey, FollowFromKey, LeavePast>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {

@@ -153,7 +153,21 @@ bool gather(const MeshQuery& q) {
                         q.scratch.pairs, &q.scratch.apart, &q.scratch.crossing, &q.scratch.by_b);
 }
 
-/// Finds all contacts within the range; returns the least gap.
+/// Whether the middle of another surface is behind this one, which is open: by the nearest feature
+/// of all of it, where it is behind any of the near triangles, the first ids of the pairs, at all.
+bool is_behind(const PlacedSurface& S, const PlacedSurface& other,
+               const std::vector<TriangleIds>& pairs) {
+  if (S.s.closed) return false;
+  const Vec3 p = S.R.transpose() * (other.point(other.s.tree->bounds().centre()) - S.x);
+  const auto below = [&](const TriangleIds& ids) {
+    return S.s.topology.face_normals[ids.a].dot(p - S.s.mesh->corner(ids.a, 0)) < 0;
+  };
+  if (std::ranges::none_of(pairs, below)) return false;
+  const auto nearest = S.s.tree->closest(p, infinity);
+  return nearest && nearest_feature(S.s, p, {&nearest->triangle, 1}, infinity).inside;
+}
+
+/// All contacts within the range; returns the least gap found.
 double find_contacts(const MeshQuery& q) {
   Scratch& s = q.scratch;
   s.contacts.clear(), s.sunk_a.clear(), s.sunk_b.clear();
@@ -256,22 +270,30 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local OverlapRegions regions;
   thread_local std::vector<FeatureContact> own;
   const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
-  MeshQuery q{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
-              {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
-              {pair.margin, 0, strict_cone},
-              scratch,
-              pair.hierarchy};
+  MeshQuery found{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
+                  {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
+                  {pair.margin, 0, strict_cone},
+                  scratch,
+                  pair.hierarchy};
   const double size = std::min(a.size, b.size);
-  q.range.reach = std::max(pair.margin, 0.01 * size);
-  while (!gather(q) && q.range.reach > 1e-5 * size) {
-    q.range.reach *= 0.5;
-    q.range.margin = std::min(q.range.margin, q.range.reach);
+  ContactRange& range = found.range;
+  range.reach = std::max(pair.margin, 0.01 * size);
+  while (!gather(found) && range.reach > 1e-5 * size) {
+    range.reach *= 0.5;
+    range.margin = std::min(range.margin, range.reach);
   }
   if (scratch.pairs.empty()) {
-    // A contained solid is examined as soon as it is within reach.
-    pair.found_apart(scratch.apart - (q.range.reach - q.range.margin), a.size + b.size);
+    // What one holds inside it is looked at as soon as it is within reach.
+    pair.found_apart(scratch.apart - (range.reach - range.margin), a.size + b.size);
     return;
   }
+  const bool a_behind = is_behind(found.B, found.A, scratch.by_b),
+             b_behind = is_behind(found.A, found.B, scratch.pairs);
+  const MeshQuery q{{b_behind ? pair.a.polyhedral()->reversed() : a, found.A.R, found.A.x},
+                    {a_behind ? pair.b.polyhedral()->reversed() : b, found.B.R, found.B.x},
+                    range,
+                    scratch,
+                    pair.hierarchy};
   const double least = find_contacts(q);
   if (stop_requested()) return;
   if (overlapping(q, least < 0, contours, regions)) {

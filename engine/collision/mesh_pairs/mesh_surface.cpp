@@ -79,4 +79,10 @@ MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh) {
   return s;
 }
 
+MeshSurface reversed_surface(const MeshSurface& surface) {
+  auto turned = std::make_shared<TriangleMesh>(*surface.mesh);
+  flip(*turned);
+  return build_mesh_surface(std::move(turned));
+}
+
 }  // namespace tumble

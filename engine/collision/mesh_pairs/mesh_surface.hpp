@@ -40,4 +40,7 @@ struct MeshSurface {
 /// Builds topology, tree, activity and thickness of a mesh that passed validate().
 MeshSurface build_mesh_surface(std::shared_ptr<const TriangleMesh> mesh);
 
+/// The surface whose triangles are turned over.
+MeshSurface reversed_surface(const MeshSurface& surface);
+
 }  // namespace tumble

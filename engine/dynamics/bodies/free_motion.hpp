@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// What the motion of a free body depends on.
+/// The constants of a body in free motion.
 struct MotionConstants {
   double mass = 1;                       ///< [kg]
   Mat3 inertia_body = Mat3::Identity();  ///< about the centre of mass, body axes [kg m2]
@@ -18,7 +18,7 @@ struct MotionConstants {
   static MotionConstants of(const RigidBody& body) { return {body.mass, body.inertia_body, {}}; }
 };
 
-/// One body's state with what follows from it; world axes.
+/// The state of one body and derived quantities; world axes.
 struct MotionState {
   Pose pose;                             ///< of the centre of mass; unit quaternion
   Vec3 momentum = Vec3::Zero();          ///< P [kg m/s]
@@ -30,7 +30,7 @@ struct MotionState {
   double kinetic_energy() const { return 0.5 * (momentum.dot(v) + angular_momentum.dot(omega)); }
 };
 
-/// Sum of what acts on a body: force, and torque about its centre of mass; world axes.
+/// Sum of forces and torques (about the centre of mass) on a body; world axes.
 struct Wrench {
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 torque = Vec3::Zero();  ///< [N m]
@@ -41,27 +41,27 @@ struct Wrench {
   }
 };
 
-/// What forces see at one evaluation of the derivative, and where they answer.
+/// Arguments and results of an evaluation of the forces.
 struct MotionForces {
   double t;  ///< [s]
   std::span<const MotionState> bodies;
-  std::span<Wrench> wrenches;          ///< one per body, zero so far
-  std::span<double> quadrature_rates;  ///< power of a force, ...; zero so far
+  std::span<Wrench> wrenches;          ///< one per body; zero on entry
+  std::span<double> quadrature_rates;  ///< such as the power of a force; zero on entry
 };
 
 /// Newton's and Euler's equations of rigid bodies (Coutinho 2013, 4.2) for the integrators of
-/// math/ode. The state holds 13 entries per body, x [m], q (w, x, y, z), P, L, world axes, and the
-/// quadratures behind them all:
+/// math/ode. The state has 13 entries per body, x [m], q (w, x, y, z), P, L in world axes, followed
+/// by the quadratures of all bodies:
 ///   x' = P/m,  q' = (0, omega) q / 2,  P' = force,  L' = torque.
-/// L changes by torque alone, so that free bodies keep every bit of it.
+/// L changes by torque only, so that free bodies keep it bitwise.
 class FreeMotion final : public ode::System {
  public:
-  /// False where the forces have no solution; the step is then refused.
+  /// False if the forces have no solution; the step is then refused.
   using Forces = std::function<bool(MotionForces&)>;
   static constexpr size_t stride = 13;
 
-  /// Error for a mass or an inertia that is not positive, with the body's name or number. Without
-  /// forces the bodies are torque-free.
+  /// Error if a mass or an inertia is not positive, with the body's name or number. Without
+  /// `forces` the bodies move freely.
   static Result<FreeMotion> make(std::vector<MotionConstants> bodies, Forces forces = {},
                                  size_t quadratures = 0);
 
@@ -74,13 +74,13 @@ class FreeMotion final : public ode::System {
 
   size_t size() const override { return first_quadrature() + quadratures_; }
   bool derivative(double t, std::span<const double> y, std::span<double> dydt) override;
-  /// Without quadratures no force is asked for.
+  /// Does not evaluate the forces unless there are quadratures.
   bool position_derivative(double t, std::span<const double> y, std::span<double> dydt) override;
   void normalise(std::span<double> y) const override;
   std::span<const ode::EntryKind> kinds() const override { return kinds_; }
-  /// Position: position + relative |x|. Orientation: orientation / 2 for each entry of q. Momenta:
-  /// what makes an error of the same size in one second, or relative |P|, |L|. Quadratures follow
-  /// the motion, and limit no step.
+  /// Allowed errors. Position: position + relative |x|. Orientation: orientation / 2 for each entry
+  /// of q. Momenta: what causes an error of that size in one second, plus relative |P|, |L|.
+  /// Quadratures do not limit steps.
   void allowed_errors(const ode::Tolerance& tolerance, std::span<const double> y,
                       std::span<double> allowed) const override;
   std::string entry_name(size_t entry) const override;

@@ -11,10 +11,11 @@ struct InnerBall {
   double radius;  ///< [m]
 };
 
-/// The largest ball about a point, which is inside.
+/// The largest ball about an inner point.
 InnerBall ball_about(const BareSurface& surface, const Vec3& p);
 
-/// The ball that the one about a point grows to, or one on the way that is as large as `enough`.
+/// The ball that the one about a point grows to as its centre moves away from the walls; stops
+/// early at one of radius `enough`.
 InnerBall grown_ball(const BareSurface& surface, const Vec3& p, double enough);
 
 /// The shortest vector of the convex hull of up to `ball_walls` vectors.

@@ -6,26 +6,27 @@
 
 namespace tumble {
 
-/// How a mesh collides; by number as snapshots hold it.
+/// How a mesh collides; the numbers are those in snapshots.
 enum class MeshMode : uint8_t {
-  triangle_mesh,  ///< as it is
-  convex_hull,    ///< as its convex hull
-  decomposition,  ///< as convex pieces that cover it
-  field,          ///< by its signed distance field
-  fit,            ///< as the primitive that fits it best
+  triangle_mesh,  ///< its triangles
+  convex_hull,    ///< its convex hull
+  decomposition,  ///< convex pieces that cover it
+  field,          ///< its signed distance field
+  fit,            ///< the primitive that fits it best
 };
 inline constexpr size_t mesh_mode_count = 5;
 
-/// One way in which a mesh may collide, with what decides how near to it that is; zeros are the
-/// usual values, which depend on the mesh.
+/// A way in which a mesh collides, with the parameters of its accuracy; zeros stand for defaults,
+/// which depend on the mesh.
 struct MeshRepresentation {
   MeshMode mode = MeshMode::triangle_mesh;
-  double concavity = 0;  ///< decomposition: how far pieces may reach outside [m]
-  uint32_t pieces = 0;   ///< decomposition: no more than these
+  double concavity = 0;  ///< decomposition: how far pieces may reach beyond the mesh [m]
+  uint32_t pieces = 0;   ///< decomposition: greatest number of pieces
   double cell = 0;       ///< field: side of its cells [m]
 };
 
-/// A mesh for which some shapes of a body stand, and how they do: what else may take their place.
+/// The mesh that some shapes of a body represent, and how; lets them be replaced by another
+/// representation.
 struct MeshSource {
   std::shared_ptr<const TriangleMesh> mesh;
   Pose pose;  ///< the mesh's frame in the body frame

@@ -11,18 +11,18 @@ namespace tumble {
 /// Pairs of bodies that do not collide with each other, by slot.
 class PairFilter {
  public:
-  /// Excludes none.
+  /// Excludes no pairs.
   void clear() {
     pairs_.clear();
     groups_.clear();
   }
-  /// From now on bodies of one group do not collide either, by what they are now.
+  /// Excludes pairs of bodies of one group, by the groups that the bodies have now.
   void set_groups(std::span<const RigidBody> bodies);
   void add(uint32_t a, uint32_t b);
-  /// After the last add.
+  /// To be called after the last add().
   void sort();
   bool excludes(uint32_t a, uint32_t b) const;
-  /// Takes the excluded pairs out, keeping the order of the rest.
+  /// Removes the excluded pairs; the others keep their order.
   void apply(const ProxySet& proxies, std::vector<ProxyPair>& pairs) const;
 
  private:
@@ -31,7 +31,7 @@ class PairFilter {
   }
 
   std::vector<std::pair<uint32_t, uint32_t>> pairs_;  ///< sorted, lower slot first
-  std::vector<uint32_t> groups_;                      ///< by slot; empty if nobody has one
+  std::vector<uint32_t> groups_;                      ///< by slot; empty if no body has a group
 };
 
 }  // namespace tumble

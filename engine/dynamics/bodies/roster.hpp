@@ -9,41 +9,39 @@
 
 namespace tumble {
 
-/// Which bodies a tick looks at. The others sleep, are fixed or do not move, and whatever was
-/// worked out of them in an earlier tick still holds: a world of sleepers costs what its few awake
-/// bodies cost.
+/// The bodies that a tick must visit. The others sleep, are fixed or do not move, and results for
+/// them from earlier ticks still hold: the cost of a world depends on its awake bodies only.
 class Roster {
  public:
-  /// From here on nothing is known: something else than a tick may have changed any body.
+  /// Declares that any body may have changed other than by a tick.
   void forget() { known_ = false; }
-  /// Something else than a tick changed this body, and no other.
+  /// Declares that this body, and no other, was changed other than by a tick.
   void touch(uint32_t slot) { touched_.push_back(slot); }
-  /// Brings the roster up to date before a tick, or after forget() within one. Every body is looked
-  /// at if forget() was called or bodies came or went; else those of the last roster and the
-  /// touched.
+  /// Updates the roster before a tick, or within one after forget(). Visits every body if forget()
+  /// was called or the number of bodies changed; otherwise those of the last roster and the touched
+  /// ones.
   void refresh(std::span<const RigidBody> bodies, Crew* crew = nullptr);
-  /// Bodies that woke during the tick, ascending; none is in the roster yet.
+  /// Adds bodies that woke during the tick, ascending; none may be in the roster yet.
   void add(std::span<const uint32_t> woken);
 
   bool known() const { return known_; }
-  /// Whether any body may have changed since the tick before.
+  /// Whether any body may have changed since the previous tick.
   bool everything() const { return !known_ || whole_; }
-  /// Slots of the bodies that seek contacts, ascending.
+  /// Slots of the active bodies (is_active), ascending.
   std::span<const uint32_t> active() const { return active_; }
-  /// Slots, ascending, of those that have come to rest: they did at the last refresh, or were
-  /// touched, and do not.
+  /// Slots, ascending, of bodies that are not active but were at the last refresh, or were touched.
   std::span<const uint32_t> settled() const { return settled_; }
-  /// Slots of those that were touched since the last refresh.
+  /// Slots of the bodies that were touched since the last refresh.
   std::span<const uint32_t> touched() const { return touched_; }
 
   void add_memory(MemoryUse& use) const;
 
  private:
   bool known_ = false;
-  bool whole_ = true;  ///< the last refresh looked at every body
-  size_t size_ = 0;    ///< bodies
+  bool whole_ = true;  ///< the last refresh visited every body
+  size_t size_ = 0;    ///< number of bodies
   std::vector<uint32_t> active_, settled_, touched_;
-  std::vector<uint8_t> seeks_;  ///< scratch
+  std::vector<uint8_t> seeks_;  ///< scratch memory
 };
 
 }  // namespace tumble

@@ -1,74 +1,82 @@
 #pragma once
 #include <cstddef>
 
-/// The numbers of this room that no setting gives: unit, reason, and source where there is one.
+/// Constants of this folder that are no settings: unit, reason, and source where there is one.
 namespace tumble::tolerances {
 
-/// How far from 1 the length of a definition's quaternion may be [-]: three written digits.
+/// Greatest difference from 1 of the length of a quaternion in a definition [-]: three written
+/// digits.
 inline constexpr double quaternion_length = 1e-3;
-/// Rounding of principal moments, relative [-]: that of flat bodies is the sum of the other two.
+/// Relative rounding error of principal moments [-]: for a flat body the greatest equals the sum of
+/// the other two.
 inline constexpr double principal_moments = 1e-9;
-/// Rounding of the entries of an inertia tensor, relative to the greatest [-]: within it a tensor
-/// is symmetric, or that of a ball. Ten thousand roundings, as sums over triangles have them.
+/// Rounding error of the entries of an inertia tensor, relative to the greatest [-]: within it a
+/// tensor counts as symmetric, or isotropic. Ten thousand times that of a double, as in sums over
+/// triangles.
 inline constexpr double inertia_entries = 1e-12;
 
-/// Greatest over least principal moment from which on a body is a needle [-]. Implicit rules for
-/// its rotation need sub-steps of the inverse of it [rad]: up to here those that there are.
+/// Ratio of the greatest to the least principal moment from which on a body is a needle [-].
+/// Implicit rules for its rotation need sub-steps of the inverse of this ratio [rad], which is
+/// affordable up to here.
 inline constexpr double needle_moment_ratio = 20;
-/// Swing of a needle about its length in one step of its rule [rad]: the energy is then right to a
-/// thousandth (second order).
+/// Rotation of a needle about its length in one step of its rule [rad]: the error of the energy is
+/// then a thousandth (second order).
 inline constexpr double needle_swing_step = 0.1;
 
-/// Greatest distance, of a body's radius, from which contacts are looked for [-]: small bodies
-/// would else see all of their neighbourhood.
+/// Greatest distance at which contacts are foreseen without motion, as a share of a body's radius
+/// [-]: small bodies would otherwise see much of their surroundings.
 inline constexpr double margin_of_radius = 0.1;
-/// Least motion in a tick, of a body's or shape's radius, that its contacts foresee [-]: what has
-/// no inside would else be watched at every motion. As far as contacts are looked for.
+/// Least motion in a tick, as a share of a body's or shape's radius, that foreseen contacts cover
+/// [-]: bodies without an inside would otherwise be swept at every motion. The same as
+/// margin_of_radius.
 inline constexpr double foresight_of_radius = margin_of_radius;
-/// Pairs of near shapes that any tick may have, and how many more for each shape. Balls of one size
-/// have 6 each where they are packed, and things of mixed sizes some dozens; a pair takes about a
-/// kilobyte with its contact, what the contact was before, and the rows of the
-/// solver [-].
+/// Number of pairs that any tick may have, and additional pairs per shape [-]. Packed balls of
+/// equal size have 6 each, and mixed sizes some dozens; a pair takes about a kilobyte, with its
+/// contact, that of the tick before, and the solver's rows.
 inline constexpr size_t pairs_at_least = 250'000, pairs_per_shape = 64;
-/// Meridians and parallels on which planes touch round shapes that are parts of a body [-]: every
-/// 22.5 degrees, so that planes of neighbours meet 2 % of the radius outside along a meridian.
+/// Numbers of meridians and parallels at which tangent planes represent round shapes of a body [-]:
+/// every 22.5 degrees, so that neighbouring planes meet 2 % of the radius outside along a meridian.
 inline constexpr int bare_meridians = 16, bare_parallels = 8;
-/// One less the cosine of the angle of two planes that touch at one place [-].
+/// 1 - cosine of the angle between two planes below which they are parallel, at one place [-].
 inline constexpr double bare_same_way = 1e-12;
-/// Width of a slit between two shapes of a body through which one comes in, of the body's size [-]:
-/// that of shapes that share a face in numbers with six digits.
+/// Width of a slit between two shapes of a body up to which it counts as closed, as a share of the
+/// body's size [-]: the gap between shapes that share a face, in numbers of six digits.
 inline constexpr double inner_slit = 1e-5;
-/// Corners of what is cut from a face are one where they are nearer than this, of a slit [-]: far
-/// above the rounding of coordinates, far below the slit.
+/// Distance below which corners of a cut face coincide, as a share of a slit [-]: far above the
+/// rounding of coordinates, far below the slit.
 inline constexpr double slit_rounding = 1e-7;
-/// Rounding of products of unit vectors, when the shortest vector of a hull is looked for [-].
+/// Rounding error of products of unit vectors in the search for the shortest vector of a hull [-].
 inline constexpr double shortest_rounding = 1e-12;
-/// A part of a body that widens by less than this over a length is as thick as it is there [-]:
-/// its wall is within three degrees of even, and the ball in it does not move on.
+/// Slope up to which a part of a body that widens along its length counts as even [-]: its wall is
+/// within three degrees of parallel, and the ball in it does not move on.
 inline constexpr double even_slope = 0.05;
-/// How much of the growth that the walls promise a step of such a ball must bring [-] (Armijo), and
-/// how short a step is tried, of the ball's radius [-]: the growth is known to their product.
+/// Share of the predicted growth that a step of such a ball must give [-] (Armijo), and the
+/// shortest step that is tried, as a share of the ball's radius [-]: growth is known to the
+/// accuracy of their product.
 inline constexpr double ball_step_gain = 0.25, least_ball_step = 1e-3;
-/// Walls about a ball that are remembered, and steps that it may take [-]: a place has four walls,
-/// and a ball that grows by an even step goes through a body of a hundred times its size.
+/// Number of walls that are remembered for a ball, and most steps that it may take [-]: an
+/// equilibrium has four walls, and a ball that grows steadily passes through a body of a hundred
+/// times its size.
 inline constexpr size_t ball_walls = 8;
 inline constexpr int most_ball_steps = 200;
-/// Walls within this of its centre, in radii of the ball, are taken along when it moves [-]: of
-/// more than it touches, so that it goes between two walls, not to and fro. Chosen by hand.
+/// Walls within this distance from its centre, in radii of the ball, affect its direction [-]: more
+/// than those it touches, so that it moves between two walls without zigzagging. Chosen by hand.
 inline constexpr double wall_near_ball = 1.1;
-/// A ball is larger than another where it is by this factor [-]: what is less is rounding.
+/// Factor by which a ball must be larger than another to count as larger [-]: less is rounding
+/// error.
 inline constexpr double larger_ball = 1 + 1e-9;
-/// A point whose distance from the edge of a ball is less than about half of this share of its
-/// radius is not in it [-]: rounding again.
+/// A point that is inside a ball by less than about half of this share of its radius counts as
+/// outside [-]: rounding error.
 inline constexpr double same_ball = 1e-9;
-/// Sets of shapes whose thickness is remembered [-]: more than the kinds of bodies that a scene
-/// has; a number and a key each.
+/// Number of sets of shapes whose thickness is cached [-]: more than the kinds of bodies in a
+/// scene; each takes a number and a key.
 inline constexpr size_t remembered_thicknesses = 4096;
-/// Turn in a tick up to which arcs are bounded by their series [rad]; beyond, by the diameter.
+/// Rotation in a tick up to which the height of arcs is bounded by a series [rad]; beyond, by the
+/// diameter.
 inline constexpr double series_turn = 1;
 
-/// How many bodies ahead loops over bodies prefetch [-]: memory answers within the time of a few.
-/// Chosen by hand.
+/// How many bodies ahead loops over bodies prefetch [-]: the latency of memory is that of a few
+/// bodies. Chosen by hand.
 inline constexpr size_t bodies_ahead = 8;
 
 }  // namespace tumble::tolerances

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Bounds of the box about a body of several shapes, over which the tree is, where it is at `pose`.
+/// Bounds of a body of several shapes at `pose`, from the box of its tree.
 inline Aabb whole_bounds(const BoundsTree& tree, const Pose& pose) {
   const Aabb box = tree.bounds();
   const Vec3 half = 0.5 * box.extent();
@@ -14,7 +14,8 @@ inline Aabb whole_bounds(const BoundsTree& tree, const Pose& pose) {
   return {x - out, x + out};
 }
 
-/// How far any point of a body leaves the motion of its centre in a tick [m].
+/// How far any point of a body may leave the motion of its centre by rotation in a tick of h
+/// seconds [m].
 inline double whole_turning(const RigidBody& body, double h) {
   const double angle = body.omega.norm() * h;
   return angle > 0 ? std::min(angle, 2.0) * body.bounding_radius : 0;

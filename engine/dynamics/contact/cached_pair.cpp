@@ -15,7 +15,7 @@ struct TwoPoses {
       : small((smaller_first(a, b) ? a : b).shape_pose),
         large((smaller_first(a, b) ? b : a).shape_pose) {}
 
-  /// The smaller side's place and orientation, seen from the larger.
+  /// Position and orientation of the smaller side in the frame of the larger one.
   Vec3 place() const { return large.q.conjugate() * (small.x - large.x); }
   Quat orientation() const { return large.q.conjugate() * small.q; }
 };
@@ -39,7 +39,7 @@ double moved_since(const CachedPair& seen, const PairSide& a, const PairSide& b,
   const TwoPoses now(a, b);
   const double shift = (now.place() - seen.relative.x).norm();
   if (shift > enough) return std::numeric_limits<double>::infinity();
-  // No point of a shape moves farther by a turn of angle t than 2 sin(t/2) times its distance.
+  // By a rotation of angle t no point of a shape moves farther than 2 sin(t/2) times its distance.
   const double turn = 2 * (now.orientation() * seen.relative.q.conjugate()).vec().norm();
   return shift + turn * std::min(a.shape_radius, b.shape_radius);
 }

@@ -8,13 +8,13 @@
 namespace tumble {
 namespace {
 
-/// What is known of two shapes; null if nothing is.
+/// What is remembered of two shapes; null if nothing is.
 const CachedShapes* find_piece(std::span<const CachedShapes> pieces, const ShapesOfPair& at) {
   const auto found = std::ranges::lower_bound(pieces, at, {}, &CachedShapes::shapes);
   return found != pieces.end() && found->shapes == at ? &*found : nullptr;
 }
 
-/// The place of one of the shapes of a side in the side's frame.
+/// Position of one of the shapes of a side in the side's frame.
 Vec3 centre_in(const PairSide& side, uint32_t shape) {
   return side.several ? side.several->shapes[shape].pose.x : Vec3(Vec3::Zero());
 }
@@ -27,7 +27,8 @@ bool flat_surface(const PairSide& side, uint32_t shape) {
   return side.planes || (side.several && made_of_planes(*side.several->shapes[shape].shape));
 }
 
-/// One of the shapes of a whole body, as shape_side makes it but for its material.
+/// One of the shapes of a body that is paired as a whole, as shape_side() makes it but without
+/// material.
 PairSide shape_of(const PairSide& whole, uint32_t shape, double h) {
   const BodyShape& of_body = whole.several->shapes[shape];
   PairSide side = whole;
@@ -50,7 +51,7 @@ PairSide shape_of(const PairSide& whole, uint32_t shape, double h) {
 
 /// Memory for one pair at a time.
 struct Memory {
-  PairSide a, b;  ///< the shapes that were asked for last
+  PairSide a, b;  ///< the shapes that side_of() was last asked for
   ShapeManifolds found;
   std::vector<ShapesNear> near;
   std::vector<uint64_t> features, kept;
@@ -85,7 +86,7 @@ const PairSide& CompoundPair::side_b(const CachedShapes& piece) {
   return side_of(b_, piece.shapes.b, named_.b, memory().b);
 }
 
-/// Of a shape, in `side` unless it was named last.
+/// The side for one shape of a body; made in `side` unless it is the one that was asked for last.
 const PairSide& CompoundPair::side_of(const PairSide& whole, uint32_t shape, uint32_t& named,
                                       PairSide& side) const {
   if (!whole.several) return whole;
@@ -99,7 +100,7 @@ double CompoundPair::reach_of(const CachedShapes& piece) {
   return finder_.reach(side_a(piece), side_b(piece));
 }
 
-/// How the bodies moved since a look; many looks were at one time.
+/// Motion of the bodies since `then`; several shapes often share the same time.
 CompoundPair::Motion& CompoundPair::motion_since(const Pose& then) {
   if (motion_ && motion_->since.x == then.x && motion_->since.q == then.q) return *motion_;
   const double turn = 2 * (now_.q * then.q.conjugate()).vec().norm();
@@ -108,14 +109,14 @@ CompoundPair::Motion& CompoundPair::motion_since(const Pose& then) {
   return *motion_;
 }
 
-/// The same of single points.
+/// The same, for single points.
 const MotionSince& CompoundPair::points_since(const Pose& then) {
   Motion& motion = motion_since(then);
   if (!motion.points) motion.points.emplace(then, now_);
   return *motion.points;
 }
 
-/// Bound on how far two shapes moved against each other, by the smaller of them [m].
+/// Bound on the relative motion of two shapes, at the smaller of them [m].
 double CompoundPair::moved(const CachedShapes& piece) {
   const bool first = smaller_first(a_, b_);
   const PairSide &small = first ? a_ : b_, &large = first ? b_ : a_;
@@ -127,14 +128,16 @@ double CompoundPair::moved(const CachedShapes& piece) {
                         : motion.shift(now_.point(centre_in(small, of_small)), radius);
 }
 
-/// Whether two shapes do not have in reach what was not found when they were looked at.
+/// Whether two shapes, which were apart or had gaps up to a margin, still have no other gap in
+/// reach.
 bool CompoundPair::still_seen(const CachedShapes& piece) {
   if (piece.margin - motion_since(piece.relative).most >= reach_) return true;
   const double left = piece.margin - moved(piece);
   return left >= reach_ || left >= reach_of(piece);
 }
 
-/// Whether the contacts may be carried along. All shapes that touch were looked at together.
+/// Whether the contacts may be carried along. The narrow phase last ran on all touching shapes at
+/// once.
 bool CompoundPair::contacts_hold() {
   if (!hold_) hold_ = find_whether_they_hold();
   return *hold_;
@@ -165,8 +168,9 @@ bool CompoundPair::knows() {
          });
 }
 
-/// Appends what is known of the bodies, and of all pairs of their shapes that are near; nothing of
-/// those that were not before.
+/// Appends what is remembered of the bodies, and of all pairs of their shapes that are near each
+/// other; pairs that were not listed before are known by the distance of their bounding spheres
+/// only.
 void CompoundPair::renew_list(Sights& sights) {
   const double asked = reach_ + slack_;
   const ContactKey key{a_.body, a_.shape_index, b_.body, b_.shape_index, 0};
@@ -191,7 +195,7 @@ void CompoundPair::renew_list(Sights& sights) {
   }
 }
 
-/// Looks at two shapes; the manifolds are added to those found.
+/// Runs the narrow phase on two shapes, and collects the manifolds.
 void CompoundPair::look_at(CachedShapes& piece) {
   Memory& m = memory();
   const PairSide &a = side_a(piece), &b = side_b(piece);
@@ -212,7 +216,8 @@ void CompoundPair::look_at(CachedShapes& piece) {
   asked_ = std::max(asked_, query.margin);
 }
 
-/// Whether any of them touches now.
+/// Runs the narrow phase on pairs of shapes that were apart and may have come near. Returns whether
+/// any of them touches now.
 bool CompoundPair::look_at_those_apart(std::span<CachedShapes> pieces) {
   bool touch = false;
   for (CachedShapes& piece : pieces) {

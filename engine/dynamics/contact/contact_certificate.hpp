@@ -11,34 +11,36 @@ namespace tumble {
 enum class ContactMode : uint8_t { open, sticking, sliding };
 std::string_view to_string(ContactMode mode);
 
-/// All that one contact point claims at one moment, for anyone to check: A and B are key.body_a and
-/// key.body_b, everything in world axes. The realtime stepper tells means over the last tick, and
-/// no accelerations.
+/// What one contact point claims at one moment, so that anyone can check the contact conditions. A
+/// and B are key.body_a and key.body_b; all vectors are in world axes. The realtime stepper reports
+/// means over the last tick, and no accelerations.
 struct ContactCertificate {
   ContactKey key;
   uint64_t feature = 0;  ///< ManifoldPoint::feature
   Vec3 x_world = Vec3::Zero();
-  Vec3 normal = Vec3::UnitY();        ///< unit, from A to B
-  double gap = 0;                     ///< negative is penetration [m]
-  double offset = 0;                  ///< depth that is accepted since it was there at first [m]
-  double normal_velocity = 0;         ///< rate of the gap [m/s]
-  Vec3 slip_velocity = Vec3::Zero();  ///< of B along the plane, less what belts ask for [m/s]
-  double normal_acceleration = 0;     ///< second derivative of the gap [m/s2]
-  Vec3 slip_acceleration = Vec3::Zero();  ///< of B relative to A along the plane [m/s2]
+  Vec3 normal = Vec3::UnitY();  ///< unit, from A to B
+  double gap = 0;               ///< negative is penetration [m]
+  double offset = 0;            ///< accepted depth: overlap that existed when the contact began [m]
+  double normal_velocity = 0;   ///< rate of the gap [m/s]
+  /// Velocity of B relative to A in the tangent plane, less that of belts [m/s]
+  Vec3 slip_velocity = Vec3::Zero();
+  double normal_acceleration = 0;         ///< second derivative of the gap [m/s2]
+  Vec3 slip_acceleration = Vec3::Zero();  ///< of B relative to A in the tangent plane [m/s2]
   Vec3 force = Vec3::Zero();              ///< on B [N]
   double friction = 0;                    ///< coefficient [-]
   ContactMode mode = ContactMode::open;
   /// |tangential force| / (friction * normal force): 1 on the cone, 0 without friction [-].
   double place_in_cone = 0;
-  /// Smaller of normal force and normal acceleration (realtime: velocity), each relative to the
-  /// greatest of the bodies that touch each other: one of the two should be 0 [-].
+  /// The smaller of normal force and normal acceleration (realtime: normal velocity), each divided
+  /// by the greatest one among the bodies of the same problem: 0 if the two are complementary [-].
   double complementarity = 0;
-  double residual = 0;      ///< of the whole problem that gave the force, by its validator [-]
-  std::string_view solver;  ///< that answered
+  /// Residual of the whole problem that gave the force, by the validator of its solver [-]
+  double residual = 0;
+  std::string_view solver;  ///< name of the solver that found the force
 };
 
-/// Newton's second law for one body, in world axes: smooth + contact + joint = change, up to
-/// `residual`.
+/// Newton's second law for one body, in world axes: smooth + contact + joint = rate of change, up
+/// to `residual`.
 struct BodyBalance {
   uint32_t body = 0;                   ///< slot
   Vec3 smooth_force = Vec3::Zero();    ///< gravity, springs, drag, fields [N]
@@ -48,17 +50,17 @@ struct BodyBalance {
   Vec3 smooth_torque = Vec3::Zero();   ///< about the centre of mass [N m]
   Vec3 contact_torque = Vec3::Zero();  ///< [N m]
   Vec3 joint_torque = Vec3::Zero();    ///< [N m]
-  Vec3 angular_rate = Vec3::Zero();    ///< of the angular momentum [N m]
-  /// |what is left| of forces, and of torques, relative to the sum of the magnitudes of all that
-  /// act: of each contact by itself [-].
+  Vec3 angular_rate = Vec3::Zero();    ///< rate of change of the angular momentum [N m]
+  /// Magnitude of the imbalance of forces, or of torques, divided by the sum of the magnitudes of
+  /// all that act, every contact counted by itself; the greater of the two [-].
   double residual = 0;
 };
 
-/// Sorted by key and feature; bodies by slot, particles behind them.
+/// Contacts by key and feature; bodies by slot, followed by particles.
 struct ContactCertificates {
   std::vector<ContactCertificate> contacts;
   std::vector<BodyBalance> bodies;
-  /// What slots with particle_bit name, by the rest of them.
+  /// The particles that slots with particle_bit stand for, indexed by the slot without that bit.
   std::vector<ParticleName> particles;
 };
 

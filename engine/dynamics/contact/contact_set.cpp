@@ -63,7 +63,7 @@ const ContactKey& key_of(const Contact* c) {
   return c->key;
 }
 
-/// Two lists, each sorted, in one.
+/// Merges two lists, each sorted, into one.
 void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledge& out) {
   out.clear();
   std::ranges::merge(a.contacts, b.contacts, std::back_inserter(out.contacts), key_less);
@@ -71,8 +71,8 @@ void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledg
   std::ranges::merge(a.pieces, b.pieces, std::back_inserter(out.pieces), std::less());
 }
 
-/// Pairs of one task: few, so that the threads share expensive ones, but many pairs in larger
-/// tasks, each of which has to find its place among the contacts of before.
+/// Pairs per task: few, so that expensive pairs are shared among threads; but more where there are
+/// many, since each task has to find its place among the contacts of the tick before.
 size_t pairs_per_chunk(size_t pairs) {
   return std::clamp(pairs / 48, size_t{16}, size_t{64});
 }
@@ -82,7 +82,8 @@ bool same_pair(const ContactKey& a, const ContactKey& b) {
          a.shape_b == b.shape_b;
 }
 
-/// Walks through what was known before along with the pairs, which come in the same order.
+/// Walks through what was known in the tick before in step with the pairs, which come in the same
+/// order.
 class HistoryCursor {
  public:
   HistoryCursor(const ContactKnowledge& known, const ContactKey& first)
@@ -101,7 +102,7 @@ class HistoryCursor {
     const bool known = look_ != seen_.end() && same_pair(look_->pair, pair);
     return {{begin, contact_}, known ? &*look_ : nullptr};
   }
-  /// What is known of the shapes of a pair; asked for some, in order.
+  /// What is known of the pairs of shapes of a pair; to be called for pairs in ascending order.
   std::span<const CachedShapes> pieces_of(const ContactKey& pair) {
     while (piece_ != pieces_.end() && piece_->pair < pair) ++piece_;
     const auto begin = piece_;
@@ -118,7 +119,7 @@ class HistoryCursor {
   std::span<const CachedShapes>::iterator piece_;
 };
 
-/// Whether any dynamic body does not seek contacts.
+/// Whether any dynamic body is at rest (not active).
 bool any_rests(std::span<const RigidBody> bodies, Crew& crew) {
   std::array<bool, chunk_count> rests{};
   for_chunks(&crew, bodies.size(), [&](size_t chunk, size_t first, size_t last) {
@@ -250,7 +251,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
   }
 }
 
-/// Puts what a chunk found, or knew, to its place.
+/// Writes the contacts of a chunk, found or carried along, to their place in the list.
 void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   chunk.stats = {};
   std::span<const Manifold> manifolds = chunk.sights.manifolds;
@@ -289,7 +290,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   count_points(contacts, chunk.stats);
 }
 
-/// Contacts between bodies none of which seeks contacts any more are put away.
+/// Stores away contacts between bodies that are both no longer active.
 void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody> bodies) {
   settled_.clear();
   const auto rest = [&](const ContactKey& key) {
@@ -304,12 +305,13 @@ void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody
   if (!settled_.empty()) resting_.add(settled_, bodies);
 }
 
-/// What was put away of bodies that seek contacts, because something woke them from outside, comes
-/// to roused_. Whether there is any.
+/// Moves contacts that were stored away to roused_ if one of their bodies is active again, because
+/// something from outside woke it. Returns whether there are any.
 bool ContactSet::rouse_active(std::span<const RigidBody> bodies, const ProxySet& proxies) {
   roused_.clear();
   if (resting_.empty()) return false;
-  std::vector<uint32_t> started;  // kinematic ones, which belong to no pile; news tell of all
+  // kinematic; they belong to no pile. Gathered where any body may have changed
+  std::vector<uint32_t> started;
   for (const uint32_t proxy : proxies.news.moving) {
     const uint32_t body = proxies.refs[proxy].body;
     if (bodies[body].dynamic())
@@ -322,8 +324,8 @@ bool ContactSet::rouse_active(std::span<const RigidBody> bodies, const ProxySet&
   return !roused_.empty();
 }
 
-/// Of what was roused, what rests itself was not looked at, unless it looked around: it stays as it
-/// is, for what lies on it may wake it.
+/// Keeps those roused contacts whose bodies are both still at rest: their pairs were not examined
+/// in this update, unless the pair is in now_.seen. A body that lies on them may wake them later.
 void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   const auto seeks = [&](const ContactKey& key) {
     return is_active(bodies[key.body_a]) || is_active(bodies[key.body_b]);
@@ -355,7 +357,7 @@ bool ContactSet::merge_roused() {
   return true;
 }
 
-/// Of all proxies, or of those that pairs name where these are few.
+/// Gathers the sides of all proxies, or only of those in pairs where these are few.
 void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& proxies,
                             std::span<const ProxyPair> pairs, const Vec3& gravity, double h,
                             double margin, Crew& crew) {
@@ -375,7 +377,7 @@ void ContactSet::take_sides(std::span<const RigidBody> bodies, const ProxySet& p
   });
 }
 
-/// resize(), of gigabytes too, unless somebody asks to stop.
+/// resize(), in portions, so that growing to gigabytes can be stopped.
 template <class T>
 void make_room(std::vector<T>& list, size_t n) {
   constexpr size_t at_once = tolerances::room_at_once;

@@ -12,18 +12,18 @@
 namespace tumble {
 namespace {
 
-/// From how far contacts are foreseen even of what does not move [m]. Every triangle within the
-/// margin costs time, and meshes have many: for two surfaces of triangles what they travel in the
-/// tick counts and little beyond it.
+/// Gap within which contacts are foreseen even of shapes that do not move [m]. Each triangle within
+/// it costs time and meshes have many, so that for two triangulated surfaces it is small beside
+/// their approach in the tick.
 double standing_reach(const PairSide& a, const PairSide& b) {
   const bool triangles = (a.mesh || b.mesh) && a.polyhedral && b.polyhedral;
   return (triangles ? tolerances::triangles_of_margin : 1.0) * std::min(a.margin, b.margin);
 }
 
-/// Carries the forces of one old point over to the new point that continues it.
+/// Carries the forces of old points over to the new points that continue them.
 class PointMatcher {
  public:
-  /// `taken` is memory to use.
+  /// `taken` is scratch memory.
   PointMatcher(std::span<const Contact> old, double tolerance, std::vector<unsigned>& taken)
       : old_(old), tolerance2_(tolerance * tolerance), taken_(taken) {
     taken_.assign(old.size(), 0);
@@ -42,7 +42,7 @@ class PointMatcher {
   void by_feature(Contact& contact, int i) {
     ContactPoint& p = contact.points[size_t(i)];
     for (size_t k = 0; k < old_.size(); ++k) {
-      // The same patch, in whichever of its manifolds.
+      // Any manifold of the same patch.
       if (uint32_t(old_[k].key.part) != uint32_t(contact.key.part)) continue;
       unsigned same = 0;
       for (int j = 0; j < old_[k].count; ++j)
@@ -77,7 +77,8 @@ class PointMatcher {
     const ContactPoint& q = old_[k].points[size_t(j)];
     p.normal_force = q.normal_force;
     p.friction_force = q.friction_force;
-    if (taken_[k] == 0) turning_torque_ += old_[k].turning_torque;  // that of all of its points
+    // once: the torque belongs to the contact as a whole
+    if (taken_[k] == 0) turning_torque_ += old_[k].turning_torque;
     matched_ |= 1u << i;
     taken_[k] |= 1u << j;
   }
@@ -86,10 +87,10 @@ class PointMatcher {
   double tolerance2_;
   unsigned matched_ = 0;
   Vec3 turning_torque_ = Vec3::Zero();
-  std::vector<unsigned>& taken_;  ///< of each old contact, a bit for a point
+  std::vector<unsigned>& taken_;  ///< by old contact: a bit for each point that is taken
 };
 
-/// The places of manifolds in the order of their parts, those of one part as they came.
+/// Indices of the manifolds in the order of their parts; those of one part in their given order.
 void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& order) {
   order.assign(manifolds.size(), 0u);
   if (manifolds.size() < 2) return;
@@ -100,7 +101,8 @@ void order_by_part(std::span<const Manifold> manifolds, std::vector<uint32_t>& o
   });
 }
 
-/// Radius at which a shape is round where it touches along `outward` (unit, world axes).
+/// Radius of curvature of a shape where it touches along `outward` (unit, world axes); 0 for
+/// planes.
 double rounding(const PairSide& side, uint32_t shape, const Vec3& outward) {
   if (side.planes) return 0;
   if (!side.several) return side.shape->rounding_along(side.shape_pose.inverse_direction(outward));
@@ -177,7 +179,7 @@ void PairContacts::look(const ProxyPair& pair, const PairHistory& history, Sight
   const PairSide &a = sides[pair.a], &b = sides[pair.b];
   const bool can_be_carried = a.planes && b.planes;
   const double reach_now = reach(a, b);
-  // Good for some motion.
+  // Searches farther, so that the result survives some motion.
   const double slack = can_be_carried ? 2 * seen_tolerance(std::min(a.margin, b.margin)) : 0;
   static thread_local std::vector<uint64_t> memory;
   ContactQuery query{reach_now + slack, hierarchy, pressed_features(history.contacts, memory)};

@@ -21,7 +21,7 @@ void take_surface(SideSurface& s, const RigidBody& body, const Material& materia
   if (!material.surface_velocity.isZero(0)) s.belt = body.pose.direction(material.surface_velocity);
 }
 
-/// What all sides of a body have in common.
+/// Sets what all sides of a body have in common.
 void take_body(PairSide& side, const RigidBody& body, ShapeRef ref, const SideTick& tick) {
   side.body_pose = body.pose;
   side.end_velocity = body.v;

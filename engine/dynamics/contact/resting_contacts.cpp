@@ -22,7 +22,7 @@ uint64_t points_of(std::span<const Contact> contacts) {
   return count;
 }
 
-/// The place of a body among these, sorted.
+/// Index of a body in a sorted list.
 uint32_t place_of(std::span<const uint32_t> sorted, uint32_t body) {
   return uint32_t(std::ranges::lower_bound(sorted, body) - sorted.begin());
 }
@@ -110,7 +110,7 @@ void RestingContacts::drop() {
   }
 }
 
-/// Divides what is sorted and touches no pile into piles.
+/// Divides contents that are sorted and connect to no existing pile into piles.
 void RestingContacts::group(const ContactKnowledge& known, std::span<const RigidBody> bodies) {
   std::vector<uint32_t> members;
   const auto each_key = [&known](const auto& f) {
@@ -123,7 +123,7 @@ void RestingContacts::group(const ContactKnowledge& known, std::span<const Rigid
   std::ranges::sort(members);
   members.erase(std::unique(members.begin(), members.end()), members.end());
   DisjointSets sets(members.size());
-  // Of a pair, the place of a dynamic body among the members.
+  // Index of a dynamic body of the pair among the members.
   const auto place = [&](const ContactKey& key) {
     return place_of(members, bodies[key.body_a].dynamic() ? key.body_a : key.body_b);
   };

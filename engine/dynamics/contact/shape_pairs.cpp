@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Calls f(i) for the shapes of a side whose bounds meet a box in the frame of its pose.
+/// Calls f(i) for the shapes of a side whose bounds overlap a box in the frame of the body.
 template <class F>
 void for_shapes_in(const SideShapes& side, const Aabb& box, const F& f) {
   if (!side.tree) {
@@ -24,7 +24,7 @@ void for_shapes_in(const SideShapes& side, const Aabb& box, const F& f) {
   });
 }
 
-/// Whether a box in the frame of a mesh meets a leaf of its tree.
+/// Whether a box in the frame of a mesh overlaps a leaf of its tree.
 bool meets_leaf(const MeshSurface& mesh, const Aabb& box) {
   const AabbTree& tree = *mesh.tree;
   const Aabb at = Aabb{box.min - tree.origin(), box.max - tree.origin()}.inflated(
@@ -45,27 +45,28 @@ bool meets_leaf(const MeshSurface& mesh, const Aabb& box) {
   return false;
 }
 
-/// Whether one shape may be near the surface of another, which is no bounds' matter where this is a
-/// mesh. `pose` is that of the first in the frame of the body of the second.
+/// Whether a shape may be near the surface of another one; always true unless that is a mesh, whose
+/// bounds contain much empty space. `pose` is that of the first shape in the frame of the other's
+/// body.
 bool near_surface(const Shape& shape, const Pose& pose, const BodyShape& other, double reach) {
   if (!other.shape->is_mesh()) return true;
   const Aabb box = shape.bounds(other.pose.inverse() * pose).inflated(reach);
   return meets_leaf(other.shape->polyhedral()->surface(), box);
 }
 
-/// How far two boxes are apart at least [m].
+/// Lower bound on the distance of two boxes [m].
 double boxes_apart(const Aabb& a, const Aabb& b) {
   const double d = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
   return std::isfinite(d) ? d : 0;
 }
 
-/// Bounds of all shapes of a side where its body is at `pose`.
+/// Bounds of all shapes of a side, with its body at `pose`.
 Aabb side_bounds(const SideShapes& side, const Pose& pose) {
   if (side.tree) return whole_bounds(*side.tree, pose);
   return side.shapes[0].shape->bounds(pose * side.shapes[0].pose);
 }
 
-/// How far the boxes about two sides are apart at least, by the directions of the boxes [m].
+/// Lower bound on the distance of the boxes about two sides, along the axes of either [m].
 double sides_apart(const SideShapes& a, const SideShapes& b) {
   const auto beyond = [](const SideShapes& one, const SideShapes& other) {
     const Aabb of_other = side_bounds(other, one.body.pose.inverse() * other.body.pose);
@@ -74,8 +75,8 @@ double sides_apart(const SideShapes& a, const SideShapes& b) {
   return std::max(beyond(a, b), beyond(b, a));
 }
 
-/// How far the bounds of shapes of two sides are apart at least, of which the second has as many
-/// or more; up to the radius of the smaller body [m].
+/// Lower bound on the distance between the bounds of shapes of two sides, the second of which has
+/// at least as many; no more than the radius of the smaller body [m].
 double shapes_apart(const SideShapes& few, const SideShapes& many) {
   if (!many.tree) return 0;
   const Pose in_many = many.body.pose.inverse() * few.body.pose;

@@ -26,10 +26,11 @@ bool same_surface(const Material& a, const Material& b) {
          a.surface_velocity == b.surface_velocity;
 }
 
-/// Points on a plane, and the convex polygon that they span. One at a time in a thread.
+/// Points projected on a plane, and the convex polygon that they span. Only one may exist per
+/// thread.
 class Spanned {
  public:
-  /// Of points across a unit normal.
+  /// The plane is perpendicular to the unit normal.
   explicit Spanned(const Vec3& normal) {
     const Vec3 aside = std::abs(normal.x()) < 0.6 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
     u_ = normal.cross(aside).normalized();
@@ -41,7 +42,7 @@ class Spanned {
     for (const ManifoldPoint& p : points) points_.push_back(flat(p.x_world));
     find_corners();
   }
-  /// How far a point is outside, seen along the normal [m].
+  /// How far a point is outside of the polygon, seen along the normal [m].
   double beyond(const Vec3& x) const {
     const Flat p = flat(x);
     const size_t n = corners_.size();
@@ -60,7 +61,7 @@ class Spanned {
     friend auto operator<=>(const Flat&, const Flat&) = default;
   };
   Flat flat(const Vec3& x) const { return {u_.dot(x), v_.dot(x)}; }
-  /// Twice the area of a triangle, positive where p is to the left of the way.
+  /// Twice the area of a triangle, positive where p is to the left of the line from `from` to `to`.
   static double cross(const Flat& from, const Flat& to, const Flat& p) {
     return (to.u - from.u) * (p.v - from.v) - (to.v - from.v) * (p.u - from.u);
   }
@@ -71,7 +72,7 @@ class Spanned {
     const double off_u = p.u - from.u - t * du, off_v = p.v - from.v - t * dv;
     return std::sqrt(off_u * off_u + off_v * off_v);
   }
-  /// The monotone chain of Andrew (1979), counter-clockwise.
+  /// Convex hull by the monotone chain of Andrew (1979), counter-clockwise.
   void find_corners() {
     std::ranges::sort(points_);
     corners_.clear();
@@ -83,12 +84,12 @@ class Spanned {
           corners_.pop_back();
         corners_.push_back(p);
       }
-      if (corners_.size() > base + 1) corners_.pop_back();  // where the other side begins
+      if (corners_.size() > base + 1) corners_.pop_back();  // begins the other half of the chain
       std::ranges::reverse(points_);
     }
   }
 
-  /// Memory that is used again.
+  /// Memory that is kept between uses.
   static std::vector<Flat>& memory(int which) {
     static thread_local std::array<std::vector<Flat>, 2> lists;
     return lists[size_t(which)];
@@ -98,7 +99,7 @@ class Spanned {
   std::vector<Flat>&points_ = memory(0), &corners_ = memory(1);
 };
 
-/// Manifolds that become one.
+/// Manifolds that are merged into one.
 struct Group {
   Vec3 seed, sum;
   ShapesOfPair first;
@@ -134,7 +135,7 @@ class Sharing {
     static thread_local std::vector<Group> memory;
     return memory;
   }
-  /// A manifold by its place, and its least gap.
+  /// A manifold by its index, with its least gap.
   struct Deep {
     double gap;
     uint32_t place;
@@ -178,7 +179,7 @@ class Sharing {
     }
   }
 
-  /// Four points at most.
+  /// Appends a manifold of at most four of the points.
   void emit_some(std::span<const ManifoldPoint> points, const Vec3& normal, uint64_t part,
                  const ShapesOfPair& at, std::vector<Manifold>& out,
                  std::vector<ShapesOfPair>& shapes) const {

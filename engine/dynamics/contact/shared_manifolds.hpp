@@ -9,22 +9,22 @@
 
 namespace tumble {
 
-/// Manifolds of pairs of shapes of two bodies, of which one has several.
+/// Manifolds of pairs of shapes of two bodies, at least one of which has several shapes.
 struct ShapeManifolds {
   std::vector<Manifold> manifolds;
-  std::vector<ShapesOfPair> shapes;  ///< of each of them
+  std::vector<ShapesOfPair> shapes;  ///< by manifold
 };
 
-/// Where shapes of one body share a face with those of another, their manifolds are one: what is
-/// cut into pieces touches as the whole would. Manifolds of flat surfaces of one material whose
-/// normals are within ten degrees, those of one mesh likewise (mesh_pairs/patches.hpp), share their
-/// points, deepest manifolds first; the normal is the mean by depth. Of these points four carry the
-/// contact (reduce_points); where others lie outside of the area that the four span, by more than a
-/// tenth of the extent of all, four of these do as well, until none does: no leg on which a body
-/// stands is left out. Others stay as they are.
+/// Merges manifolds of neighbouring shapes into one, so that a body that is cut into pieces touches
+/// as the whole would. Manifolds of planar surfaces of equal material whose normals are within ten
+/// degrees share their points, deepest manifolds first, by the rule that also merges the patches of
+/// one mesh (mesh_pairs/patches.hpp); the normal is the mean weighted by depth. Four of the points
+/// carry the contact (reduce_points). While points lie outside of the polygon that the kept ones
+/// span by more than a tenth of the extent of all points, four more are kept, so that every leg on
+/// which a body stands has a contact. All other manifolds stay as they are.
 ///
-/// Appends to `out`, with the first of the shapes that share each; gaps up to `margin` were asked
-/// for [m]. `kept` is ContactQuery::kept.
+/// Appends the manifolds to `out`, and to `shapes` the first pair of shapes of each. `margin` is
+/// the gap up to which the narrow phase searched [m]; `kept` is ContactQuery::kept.
 void share_manifolds(const RigidBody& a, const RigidBody& b, const ShapeManifolds& found,
                      double margin, std::span<const uint64_t> kept, std::vector<Manifold>& out,
                      std::vector<ShapesOfPair>& shapes);

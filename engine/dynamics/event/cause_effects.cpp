@@ -45,7 +45,7 @@ void add_push(const RigidBody& a, const BodyVelocity& of_a, const RigidBody& b,
   const Vec3 ua = of_a.v + of_a.omega.cross(x - a.pose.x);
   const Vec3 ub = of_b.v + of_b.omega.cross(x - b.pose.x);
   const double moved = (b.dynamic() ? 1 : 0) - (a.dynamic() ? 1 : 0);
-  // Two particles that do not turn are both pushed where they are.
+  // Particles do not turn: the force acts at their centres.
   const auto turned = [&](const RigidBody& body, const Vec3& part) -> Vec3 {
     if (!body.dynamic()) return Vec3::Zero();
     return (is_particle(body) ? body.pose.x : x).cross(part);
@@ -74,7 +74,7 @@ void add_torque(const RigidBody& a, const RigidBody& b, const Vec3& torque, Cont
 
 namespace {
 
-/// One side of a row's push.
+/// Books one side of the push along a row.
 void add_side_push(const RowSide& s, double push, ContactCause cause, bool lost,
                    const MovingBlocks& blocks, ContactEffects& out) {
   CauseEffect& booked = out[size_t(cause)];
@@ -100,7 +100,7 @@ void add_row_push(const Row& row, double push, ContactCause cause, const MovingB
 
 void add_joint_pushes(const Articulation& held, std::span<const double> pushes,
                       const MovingBlocks& blocks, ContactEffects& out) {
-  // Of the rows of a joint's parts the sum is booked, at each side.
+  // Of the rows of a joint's parts the sum is booked, side by side.
   std::array<RowSide, 2> sum;
   const auto book = [&] {
     for (RowSide& s : sum)

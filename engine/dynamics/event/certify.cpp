@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Bodies that touch each other or are jointed, and their contacts and joints.
+/// Bodies that are connected by contacts and joints, with these.
 struct TouchingBodies {
   std::vector<uint32_t> slots;
   std::vector<uint32_t> joints, couplings;
@@ -66,7 +66,7 @@ double cone_place(const Vec3& force, const Vec3& normal, double friction) {
   return (force - across * normal).norm() / (friction * across);
 }
 
-/// A sum that should vanish, beside the sum of its terms' sizes.
+/// A sum that should be zero, and the sum of the magnitudes of its terms.
 struct Rest {
   Vec3 left = Vec3::Zero();
   double size = 0;
@@ -256,7 +256,7 @@ Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint3
     break;
   }
   std::copy(before.begin(), before.end(), bodies.begin());
-  // Where no forces were found the problem is there all the same.
+  // The problem was posed even if no forces were found.
   if (out.problem.points.size() != out.places.size()) {
     if (!done) return done.error();
     return Error{

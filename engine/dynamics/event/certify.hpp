@@ -6,11 +6,11 @@
 
 namespace tumble {
 
-/// What the contacts of the event stepper claim at the bodies' present poses and velocities: the
-/// forces are solved for afresh, and of all that give this motion the least are told. Bodies that
-/// touch each other, or that one of the joints named by links holds together, are one problem.
-/// Bodies are given back as they were. `forces` may set what acts on any body, `courses` how
-/// kinematic ones go on. Error: no forces were found.
+/// What the contacts of the event stepper claim at the bodies' present poses and velocities. The
+/// forces are solved for anew, and where several sets of forces give the same motion the least is
+/// reported. Bodies that touch each other, or are connected by joints that BodyLinks name, form one
+/// problem. Restores the bodies. `forces` may set the force on any body; `courses` says how the
+/// velocities of kinematic bodies change. Error: no forces were found.
 Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const EventContact> contacts,
                                     const SmoothForces& forces, ContactForceMethod method,
@@ -18,7 +18,7 @@ Result<ContactCertificates> certify(std::span<RigidBody> bodies,
                                     std::span<const BodyLink> links = {},
                                     std::span<const CourseMotion> courses = {});
 
-/// The problem of contact forces of the bodies that touch, or are jointed with, one of them.
+/// The problem of contact forces of the bodies connected to one body by contacts and joints.
 struct GroupForceProblem {
   struct Place {
     ContactKey key;
@@ -30,9 +30,8 @@ struct GroupForceProblem {
   std::vector<uint32_t> bodies;  ///< slots, ascending
 };
 
-/// The problem that certify() solves for the bodies around one, with its answer if there is one;
-/// nothing in it where that body touches nothing that moves or presses it. Bodies are given back
-/// as they were.
+/// The problem that certify() solves for the bodies around one body, with its solution if there is
+/// one; empty where that body has no contacts with force. Restores the bodies.
 Result<GroupForceProblem> pose_contact_forces(std::span<RigidBody> bodies, uint32_t slot,
                                               std::span<const EventContact> contacts,
                                               const SmoothForces& forces, ContactForceMethod method,

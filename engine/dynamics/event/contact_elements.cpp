@@ -12,7 +12,7 @@ bool is_sharp_point(const SurfaceElement& e) {
   return e.kind == ElementKind::point && e.radius == 0;
 }
 
-/// Whether a surface has one normal at each of its points.
+/// Whether a surface has a unique normal at each of its points.
 bool is_smooth(const SurfaceElement& e) {
   using enum ElementKind;
   return e.kind == plane || e.kind == ellipsoid || e.kind == cone ||

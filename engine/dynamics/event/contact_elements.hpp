@@ -5,22 +5,24 @@
 
 namespace tumble {
 
-/// Lies along a plane, if it touches one.
+/// Whether an element touches a plane along a whole line.
 bool is_straight(const SurfaceElement& element);
 
-/// Where a corner meets a corner, an edge or a rim, or edges meet along each other, any normal
-/// between their faces would do: that of the pair and the material point of B do for a moment.
+/// Where a corner meets a corner, an edge or a rim, or two edges are parallel, the normal is not
+/// unique. Then the plane across `normal` through the point on A, and the material point of B,
+/// stand in for one step.
 void choose_tangent(EventContact& contact, const RigidBody& a, const RigidBody& b, const Vec3& on_a,
                     const Vec3& on_b, const Vec3& normal);
-/// The elements of one manifold point. Faces are planes only where the other side has a corner, an
-/// edge or something round on them: of two faces the one without corners there is the plane.
+/// Chooses the elements of one manifold point. A face is a plane only if the other side has a
+/// corner, an edge or something round there: of two faces, the one without a corner at the point
+/// becomes the plane.
 void choose_elements(EventContact& contact, const RigidBody& a, const RigidBody& b,
                      const Vec3& on_a, const Vec3& on_b, const Vec3& normal);
 
-/// A rim that rolls on a face has one element; other points of its manifold on the same circle go.
-/// Of the contacts from the `first` on.
+/// Where a rim rolls on a face, one element represents all its contact; other manifold points on
+/// the same circle are removed. Examines the contacts from `first` on.
 void drop_rim_points(std::vector<EventContact>& contacts, size_t first);
-/// Whether a rim lies flat on a face, where no point of it is furthest out.
+/// Whether a rim lies flat on a face, so that no point of it is the furthest.
 bool lies_flat(const EventContact& contact, const ElementPlace& place,
                std::span<const RigidBody> bodies);
 

@@ -18,16 +18,16 @@ namespace {
 
 constexpr double unbounded_force = std::numeric_limits<double>::infinity();
 
-/// The unknowns of one point: the normal force, and where there is friction two tangential ones.
+/// The unknowns of one point: the normal force, and with friction two tangential ones.
 struct PointRows {
   int first = 0;
   int count = 1;
   std::array<Vec3, 3> axes;
 };
 
-/// The unknowns of rolling or torsional friction: what bounds it, which is the lever arm times the
-/// normal forces by an equation of its own and acts on nothing, then the torques about two axes.
-/// Torsional friction has one axis; the other stands for none.
+/// The unknowns of rolling or torsional friction: first the bound of the torque, which an equation
+/// of its own sets to the lever arm times the normal forces and which acts on nothing; then the
+/// torques about two axes. Torsional friction has only one axis, the other is zero.
 struct TurningRows {
   int first = 0;
   std::array<Vec3, 2> axes;
@@ -67,7 +67,8 @@ void add_point(ForceProblem& problem, const ForcePoint& p, lcp::ConeShape cone,
   problem.points.push_back(rows);
 }
 
-/// A group of TurningRows with these axes; `turning` is along the present turning, 0 for none.
+/// Appends a group of TurningRows with these axes; `turning` is along the present turning, zero if
+/// it is held at zero.
 void add_turning(ForceProblem& problem, const TurningPoint& p, double arm,
                  const std::array<Vec3, 2>& axes, const Vec3& turning,
                  std::span<const DofBlock> free, std::vector<double>& b) {
@@ -95,8 +96,8 @@ void add_turning(ForceProblem& problem, const TurningPoint& p, std::span<const D
   add_turning(problem, p, p.torsional, {p.normal, Vec3::Zero()}, p.spin * p.normal, free, b);
 }
 
-/// What the rows of the bodies do not say of those of turning: bounds, and what stands for none.
-/// In units of the torques they are as stiff as these.
+/// Sets the entries of the matrix for turning that the bodies do not give: the equations of bounds,
+/// and those of axes that do not exist; scaled to the diagonal entries of the torques.
 void complete_turning(const ForceProblem& problem, lcp::MatX& A) {
   for (const TurningRows& t : problem.turning) {
     const Eigen::Index at = t.first;
@@ -107,7 +108,7 @@ void complete_turning(const ForceProblem& problem, lcp::MatX& A) {
   }
 }
 
-/// The torque that was found, or a start as given.
+/// The torque that was found.
 Vec3 torque_of(const TurningRows& t, const lcp::VecX& z) {
   return z[t.first + 1] * t.axes[0] + z[t.first + 2] * t.axes[1];
 }
@@ -135,7 +136,7 @@ void take_turning(const ForceProblem& problem, const lcp::VecX& z,
   }
 }
 
-/// The rows with bounds stand behind those of the points.
+/// Appends the rows with bounds, behind those of points and turning.
 void add_bounded(ForceProblem& problem, std::span<const BoundedRow> rows,
                  std::span<const DofBlock> free, std::vector<double>& b) {
   for (const BoundedRow& r : rows) {
@@ -144,15 +145,16 @@ void add_bounded(ForceProblem& problem, std::span<const BoundedRow> rows,
   }
 }
 
-/// Whether the joints' rows stand among the unknowns, behind all others, so that the problem is one
-/// of bodies and stays sparse; else what the others answer to is what joints leave.
+/// Whether the rows of joints are unknowns too, behind all others, so that the problem couples
+/// bodies only and stays sparse. Otherwise the matrix is reduced by the joints.
 bool takes_joint_rows(const ForceProblem& problem, const ContactForceMethod& method,
                       const Articulation& joints) {
   return !method.solver && !method.least && joints.plain() &&
          problem.rows.size() >= size_t(lcp::ConeTask::many_unknowns);
 }
 
-/// Equations: the accelerations are on the joints, and stay there.
+/// Appends the rows of joints as equations: the given accelerations satisfy the joints, and must
+/// continue to.
 void add_joint_rows(ForceProblem& problem, const Articulation& joints) {
   lcp::ConeTask& task = problem.task;
   const auto n = Eigen::Index(problem.rows.size()), m = Eigen::Index(joints.size());
@@ -168,7 +170,7 @@ void add_joint_rows(ForceProblem& problem, const Articulation& joints) {
   extend(task.start, 0);
 }
 
-/// b and bounds, and the last forces as a start, if there are any.
+/// Sets b and bounds, and the last forces as a first guess if there are any.
 void set_conditions(ForceProblem& problem, const std::vector<double>& b,
                     std::span<const Vec3> forces, std::span<const BoundedRow> rows,
                     std::span<const TurningPoint> turning) {
@@ -194,8 +196,8 @@ void set_conditions(ForceProblem& problem, const std::vector<double>& b,
   }
 }
 
-/// How the problem is to be solved. Bodies without joints, or with those among the rows, answer to
-/// what acts on themselves only: the rows are in blocks.
+/// Chooses how the problem is solved. Without joints, or with the rows of joints as unknowns, each
+/// row acts on its own bodies only, so that the problem has a form in blocks.
 void set_method(ForceProblem& problem, const ContactForceMethod& method,
                 std::span<const DofBlock> blocks, const Articulation& joints) {
   lcp::ConeTask& task = problem.task;
@@ -203,7 +205,7 @@ void set_method(ForceProblem& problem, const ContactForceMethod& method,
   task.least = method.least;
   task.believable = tolerances::believable_residual;
   if (!task.few()) task.tolerance = tolerances::force_residual_of_many;
-  // The bounds of torques by normal forces are no blocks of bodies, nor symmetric.
+  // The bounds of torques by normal forces fit no block of bodies and are unsymmetric.
   const bool turns = !problem.turning.empty();
   const bool whole = joints.empty() || (!turns && takes_joint_rows(problem, method, joints));
   if (whole && !joints.empty()) add_joint_rows(problem, joints);
@@ -295,7 +297,7 @@ ContactForceReport solve_contact_forces(std::span<DofBlock> accelerations,
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].force = solved.z[Eigen::Index(b.size() - rows.size() + i)];
   take_turning(problem, solved.z, turning);
-  // Of joints' own rows the forces follow from those of all others.
+  // Forces of the joints follow from all others.
   for (size_t r = 0; r < b.size(); ++r)
     apply_row(problem.rows[r], solved.z[Eigen::Index(r)], accelerations);
   return report;

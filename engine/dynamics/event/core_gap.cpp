@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Climbs to the greatest separation near a direction.
+/// Climbs to the greatest separation near a direction, by nearest points of separated cores.
 void climb(const CorePair& cores, Vec3 n, CoreContact& best) {
   best.gap = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < tolerances::most_lifts; ++k) {
@@ -47,7 +47,7 @@ CoreContact core_gap(const CorePair& cores, double farthest, const Vec3& towards
   if (apart && near.distance > tolerances::nearest_points_of_size * cores.size)
     return {near.normal, near.distance, near.a, near.b, true, false};
   best.gap = -std::numeric_limits<double>::infinity();
-  // Touching: the last normal is a better start than the noise of touching points.
+  // If they touch, the last normal is a better start than the noise of touching points.
   if (!towards_b.isZero()) climb(cores, towards_b, best);
   if (!(best.gap > -tolerances::nearest_points_of_size * cores.size)) {
     const Vec3 start = apart ? near.normal : epa(cores.a, cores.b, near.simplex).normal;

@@ -16,10 +16,10 @@ auto shapes_of(const ContactKey& key) {
   return std::tie(key.body_a, key.body_b, key.shape_a, key.shape_b);
 }
 
-/// Of nearest points, which need not be at the same features for long.
+/// Feature of nearest points, which do not stay at the same features for long.
 constexpr uint64_t nearest_points = feature_key(FeaturePair::closest, 0, 0);
 
-/// Whether the elements of a contact still meet where both shapes have a surface.
+/// Whether the elements of a contact still meet on the surfaces of both shapes.
 bool still_there(const ElementPlace& g, const PairShapes& s) {
   const double off = 0.5 * std::fabs(g.gap) + tolerances::same_place_of_size * s.size();
   for (const auto& [shape, pose] : {std::pair(&s.sa, &s.at_a), std::pair(&s.sb, &s.at_b)})

@@ -8,16 +8,18 @@
 
 namespace tumble {
 
-/// In the order of their shapes.
+/// Pointers to the contacts, sorted by their bodies and shapes.
 std::vector<const EventContact*> by_shapes(std::span<const EventContact> contacts);
 
-/// Finds what a contact continues: what is at its place now, or else the same features.
+/// Finds which earlier contact a new one continues: one at the same place now, or else one of the
+/// same features.
 class Continued {
  public:
-  /// `before` in the order of their shapes.
+  /// `before` as by_shapes() returns it.
   Continued(std::span<const RigidBody> bodies, std::span<const EventContact* const> before,
             const ContactKey& pair);
-  /// The one within `near` [m] of where the contact is, or with its features; each is taken once.
+  /// The earlier contact within `near` [m] of where the contact is, or with its features; each is
+  /// returned only once.
   const EventContact* of(const EventContact& c, const Vec3& x_world, double near);
   bool none() const { return known_.empty(); }
   double offset() const {
@@ -25,7 +27,7 @@ class Continued {
     for (const Known& k : known_) most = std::max(most, k.contact->offset);
     return most;
   }
-  /// Calls with each contact that nothing continues, and its gap.
+  /// Calls visit(contact, its present place) for each earlier contact that no new one continues.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     for (const Known& k : known_)
@@ -41,9 +43,9 @@ class Continued {
   std::vector<Known> known_;
 };
 
-/// A manifold holds no more than four points, and of a surface that is nearly flat other four every
-/// time: points that nearly touch stay watched as long as they are what they were. They are added
-/// to those of the pair, which begin at `first`.
+/// Adds to the contacts of a pair, which begin at `first`, earlier ones that still nearly touch at
+/// the same features. A manifold holds only four points, and on a nearly flat surface other four
+/// every time; so points stay watched.
 void keep_near(const Continued& continued, std::span<const RigidBody> bodies, const EventPair& pair,
                size_t first, std::vector<EventContact>& out);
 

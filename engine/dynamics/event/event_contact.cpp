@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// The one of the two that is a particle, if just one is.
+/// The one that is a particle, if exactly one is.
 const RigidBody* particle_of(const EventContact& c, std::span<const RigidBody> bodies) {
   const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
   const bool of_a = is_particle(a), of_b = is_particle(b);

@@ -21,7 +21,7 @@ ContactPoint point_of(const EventContact& c, const ElementGap& g,
   return p;
 }
 
-/// As contacts of the time stepper are named, which pairs some bodies as wholes.
+/// The key under which the realtime stepper stores the contact, which pairs some bodies as wholes.
 ContactKey name_of_pair(const EventContact& c, std::span<const RigidBody> bodies) {
   const bool whole_a = bodies[c.key.body_a].tree != nullptr,
              whole_b = bodies[c.key.body_b].tree != nullptr;

@@ -3,9 +3,9 @@
 
 namespace tumble {
 
-/// The contacts of the event stepper that touch or have pressed during the tick, in the form in
-/// which the realtime stepper keeps its own, sorted by key: for frames and queries, and for the
-/// start of its solver after a change of stepper.
+/// The contacts of the event stepper that touch, or pressed during the tick, in the form of the
+/// realtime stepper, sorted by key: for frames and queries, and as a warm start after a change of
+/// stepper.
 std::vector<Contact> contact_list(std::span<const EventContact> contacts,
                                   std::span<const RigidBody> bodies);
 

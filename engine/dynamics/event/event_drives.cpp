@@ -104,7 +104,7 @@ void EventDrives::set_modes(std::span<const RigidBody> bodies, double t) {
       p.holds = std::fabs(off) <= tolerances::sticking_speed;
       if (!p.holds) p.side = off > 0 ? 1 : -1;
     }
-    // What begins to hold knows nothing yet of what that takes.
+    // A part that begins to hold has no force yet as a first guess.
     if (!p.holds || !held) p.force = 0;
   }
 }

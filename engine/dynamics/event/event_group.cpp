@@ -13,10 +13,11 @@
 namespace tumble {
 namespace {
 
-/// The longest step that follows a body's turning [s]. Of needles the momentum of swinging counts,
-/// as spin about themselves, as much more as the greatest moment of inertia is than the least: an
-/// error of the axis, of fourth order, must be as much smaller. Of the thinnest the stages of a
-/// step must not spin: their axes are off by the square of the turn.
+/// The longest step that resolves a body's rotation [s]. For a needle only the rotation of its axis
+/// counts; but its spin about the axis depends on the angular momentum of that rotation, larger by
+/// the ratio of the moments of inertia, so the error of the axis, of fourth order, must be smaller
+/// by that ratio. The stages of a step must not spin the thinnest needles either, since the axis at
+/// a stage is off by the square of the rotation.
 double turning_step(const RigidBody& b) {
   const double step = tolerances::turn_per_step / b.omega.norm();
   const std::optional<SlenderInertia> slender = slender_inertia(b.inertia_body);
@@ -41,8 +42,8 @@ std::unique_ptr<ode::Integrator> integrator_of(const EventSettings& settings) {
   return made;
 }
 
-/// Least of the shapes' inner radii [m]: a step must not carry one of them through what it meets,
-/// however thick the whole is.
+/// Least inner radius of the body's shapes [m]: a step must not carry any of them through another
+/// body, however thick the whole body is.
 double thinnest_part(const RigidBody& b) {
   if (b.shapes.empty()) return b.inner_radius;
   double least = tolerances::no_limit;
@@ -94,9 +95,9 @@ double EventGroup::safe_step(double most) const {
   return step;
 }
 
-/// Greatest speed of any point of one against any of the other [m/s]. Friction goes with how they
-/// pass each other; without it all that matters is how they come along the normal that parts them,
-/// where there is one for all of them: spin about it brings nobody nearer.
+/// Upper bound on the speed of any point of one body relative to the other [m/s]. Friction depends
+/// on how they pass each other. Without friction only the motion along the normal counts, where one
+/// normal separates the shapes: spin about it brings no point nearer.
 double EventGroup::passing_speed(const EventPair& p, double step) const {
   const RigidBody &a = state_.bodies[p.a.body], &b = state_.bodies[p.b.body];
   const BodyShape &of_a = a.shapes[p.a.shape], &of_b = b.shapes[p.b.shape];
@@ -134,7 +135,8 @@ Status EventGroup::step_to(double t, double& step) {
       step = report.advanced;
       return {};
     }
-    // Newton's method, or the forces at a stage that is far off, may do with less.
+    // The integrator's Newton iteration did not converge, or no forces exist at a distant stage: a
+    // shorter step may succeed.
     const bool halved = report.status == ode::StepStatus::not_converged ||
                         report.status == ode::StepStatus::refused;
     if (!halved || is_shortest(step) || (first && stuck_at(t))) break;
@@ -151,7 +153,8 @@ Status EventGroup::step_to_event(double t, double& step, EventStats& stats) {
   if (Status done = step_to(t, step); !done) return done;
   ++stats.steps;
   stats.substituted += state_.system.report().substituted;
-  // A shorter step is another step: where forces are not smooth it goes elsewhere.
+  // The shorter step is computed anew and searched again: where forces are not smooth it differs
+  // from the longer one.
   bool early = false;
   for (;;) {
     const double event = first_event_.find(t, step);
@@ -310,7 +313,7 @@ Status EventGroup::too_much(uint64_t budget) {
   go_back();
   const char *message = "too much happens in one tick",
              *cure = "use a smaller tick, restitution below 1, or a larger event.budget";
-  // A proof that the end of the budget cut short, here or before, is none.
+  // A proof of a crush that the end of the budget cut short, here or before, is invalid.
   state_.group.crushed = false;
   WorkMeter of_proof(budget);
   Status lost;
@@ -355,7 +358,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
       state_.system.set_contacts(state_.contacts);
       if (Status done = step_to_event(t, step, stats); !done) {
         if (state_.system.report().solved || stop_requested()) return done;
-        // No forces are in balance from here on: an impulse.
+        // No forces are in balance from here on: impulses must act.
         go_back();
         if (!impacts_.stop_jams(stats)) return done;
         y_ = start_.y;
@@ -377,7 +380,7 @@ Status EventGroup::go_through(const TickPart& part, EventStats& stats, uint64_t 
           kept_closed(crossings) && (integrator_->order() < tolerances::accurate_order ||
                                      kept_jointed(drift, lost.energy, moving_before));
       if (exact || tries >= tolerances::most_exact_tries) state_.find_contacts(false);
-      // Something came through that nobody watched: look again, more closely.
+      // A contact that was not watched overlaps: the step is repeated with half its length.
       if ((exact || tries >= tolerances::most_exact_tries) &&
           (state_.deepest() <= deep + tolerances::came_through || is_shortest(step)))
         break;

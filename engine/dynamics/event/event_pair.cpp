@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// Whether a manifold says what there is about two pieces: that they are apart along its normal, or
-/// no deeper than its points.
+/// Whether a manifold accounts for the overlap of two pieces: along its normal they overlap no more
+/// than its points.
 bool explains(const Manifold& m, const PairShapes& s, const PiecePair& pieces) {
   double least = -tolerances::seen_depth;
   for (int i = 0; i < m.count; ++i) least = std::min(least, m.points[size_t(i)].gap);
@@ -19,8 +19,8 @@ bool explains(const Manifold& m, const PairShapes& s, const PiecePair& pieces) {
          least - tolerances::same_depth;
 }
 
-/// Pieces of meshes that have just come in and have no contact yet, since a manifold holds four
-/// points and a sheet's back has none: there their deepest points are one.
+/// Pieces of meshes that have just begun to overlap and have no contact, because a manifold holds
+/// only four points and the back of a sheet has none: their deepest points become contacts.
 void unexplained_pieces(const PairShapes& s, const HierarchyKind* hierarchy,
                         std::vector<Manifold>& out) {
   std::vector<PiecePair> pieces;

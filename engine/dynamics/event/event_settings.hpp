@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// What can be tuned about the `event` stepper. Part of the state of a world.
+/// Settings of the `event` stepper. Part of the state of a world.
 struct EventSettings {
   std::string integrator = "rk4";            ///< name in ode::all_integrators()
   std::string impulses = "reflections";      ///< name in all_impact_laws()
@@ -13,7 +13,7 @@ struct EventSettings {
   std::string friction_cone = "circular";    ///< name in all_friction_cones()
   double tolerance = 1e-9;                   ///< of adaptive integrators, per step [m, rad]
   double recovery_speed = 0.05;              ///< [m/s]
-  /// Work that a tick may cost for each body of a group, in prices::event [-].
+  /// Work that a tick may cost for each body of a group, in units of prices::event [-].
   int budget = 100;
 
   template <class Visitor, class Self>

@@ -19,8 +19,8 @@ std::vector<BodyMotion> motions_of(std::span<const RigidBody> bodies) {
   return out;
 }
 
-/// What no motion at all allows remains an error; where events just do not lead on, or are too
-/// many, time-stepping does.
+/// Where it is proved that no motion exists, time-stepping could not help either, and the error
+/// stands.
 bool can_be_time_stepped(const BodyGroup& group, const EventContext& context) {
   return context.time_stepping && !group.crushed;
 }
@@ -29,7 +29,7 @@ void put_bodies(std::span<const BodyMotion> motions, std::span<RigidBody> bodies
   for (size_t i = 0; i < bodies.size(); ++i) put_motion(motions[i], bodies[i]);
 }
 
-/// Means over the tick, to be read at its end and by the other stepper to begin with.
+/// Stores mean forces over the tick, which can be read, and from which the realtime stepper starts.
 void tell_joint_forces(const BodyGroup& group, double h, std::span<Joint> joints,
                        std::span<JointCoupling> couplings) {
   for (size_t i = 0; i < group.joints.size(); ++i) {
@@ -77,7 +77,8 @@ void EventStepper::build_groups(std::span<const RigidBody> bodies, const JointsA
   for (const ProxyPair& p : pairs_) {
     ShapeRef a = proxies_.refs[p.a], b = proxies_.refs[p.b];
     if (a.body == b.body || (!bodies[a.body].dynamic() && !bodies[b.body].dynamic())) continue;
-    if (carried_[a.body] && carried_[b.body]) continue;  // time-stepping finds its own
+    // time-stepping finds the pairs among its bodies itself
+    if (carried_[a.body] && carried_[b.body]) continue;
     if (b.body < a.body) std::swap(a, b);
     groups_[group_of(a.body, b.body)].pairs.push_back({a, b, 0});
   }
@@ -113,7 +114,8 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
     for (const uint32_t slot : groups_[i].bodies) counted_[i].work += spent_[slot];
   std::vector<Status> done(groups_.size());
   bool any = false;
-  // What is laid out is kept for the groups of this try; those of earlier ones may have had others.
+  // Equations are kept for the groups of this attempt only; those of other groups may be laid out
+  // differently.
   std::unordered_set<uint32_t> fronts;
   for (const BodyGroup& g : groups_)
     if (!g.joints.empty()) fronts.insert(g.joints.front());
@@ -146,8 +148,8 @@ Status EventStepper::run_groups(std::span<RigidBody> bodies, const SmoothForces&
   return {};
 }
 
-/// What groups spent goes with their bodies, in equal shares: a tick that is computed again, with
-/// other groups, has no budget of its own.
+/// Charges the work of groups to their bodies in equal shares, so that a tick that is computed
+/// again with other groups does not get a new budget.
 void EventStepper::note_spent() {
   for (size_t i = 0; i < groups_.size(); ++i) {
     const std::vector<uint32_t>& slots = groups_[i].bodies;
@@ -157,14 +159,14 @@ void EventStepper::note_spent() {
   }
 }
 
-/// Moves the groups that are marked as such, all in one.
+/// Time-steps all groups that are marked, together.
 Status EventStepper::time_step(std::span<RigidBody> bodies, const EventContext& context) {
   std::vector<uint32_t> slots;
   for (size_t i = 0; i < groups_.size(); ++i) {
     BodyGroup& g = groups_[i];
     if (!g.time_stepped) continue;
     slots.insert(slots.end(), g.bodies.begin(), g.bodies.end());
-    // Overlap that is left is found, and accepted, when events go on from there.
+    // Overlap that is left becomes accepted depth when events continue from there.
     g.contacts.clear();
     g.books = {};
     const uint64_t work = counted_[i].work;
@@ -201,7 +203,7 @@ void TimeSteppedTicks::fail() {
   left = last;
 }
 
-/// For the ticks to come.
+/// Updates for how many ticks bodies will be time-stepped.
 void EventStepper::note_time_stepped() {
   time_stepped.resize(carried_.size());
   for (const BodyGroup& g : groups_) {
@@ -219,7 +221,8 @@ void EventStepper::note_time_stepped() {
   }
 }
 
-/// Bodies of crowds hit each other, and then go faster. Gives whether there are any.
+/// Widens the reaches of bodies in crowds, which hit each other and become faster. Returns whether
+/// there are any.
 bool EventStepper::foresee_crowds(const EventContext& context) {
   bool any = false;
   for (const BodyGroup& g : groups_) {
@@ -230,12 +233,12 @@ bool EventStepper::foresee_crowds(const EventContext& context) {
   return any;
 }
 
-/// Whether any body went farther than it was to. Groups without one are computed again only because
-/// of others, and have their whole budget for that.
+/// Widens the reaches of bodies that moved farther. Groups without such a body are computed again
+/// only because of others, and get their whole budget back. Returns whether any was widened.
 bool EventStepper::widen_reaches() {
   bool widened = false;
   for (const BodyGroup& g : groups_) {
-    // A group that is left to time stepping has not moved where another's failure ended the try.
+    // A group to be time-stepped has not moved if the failure of another group ended the attempt.
     if (g.max_displacement.size() != g.bodies.size()) continue;
     bool strayed = false;
     for (size_t i = 0; i < g.bodies.size(); ++i) {
@@ -251,8 +254,8 @@ bool EventStepper::widen_reaches() {
   return widened;
 }
 
-/// Whether no more pairs might meet, within the reaches as they are now, than were found.
-/// The bodies must be where they started.
+/// Whether the present reaches give the same pairs as before. The bodies must be where they
+/// started.
 bool EventStepper::found_all(std::span<const RigidBody> bodies, BroadPhase& broad_phase,
                              const PairFilter& apart) {
   const std::vector<ProxyPair> found = pairs_;
@@ -300,7 +303,8 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
     find_pairs(bodies, broad_phase, context.apart);
     if (auto crowd = tries == 0 ? find_crowd(proxies_, pairs_) : std::nullopt) {
       crowd->error.place = "about " + context.name(crowd->slot);
-      // Too many for events: time-stepping, whose bounds are those of the tick's motion, moves all.
+      // Too many pairs for events: all bodies are time-stepped, whose bounds are only those of the
+      // tick's motion.
       if (!context.time_stepping) return crowd->error;
       for (const uint32_t slot : moving) carried_[slot] = true;
     }
@@ -325,7 +329,7 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
   if (context.search)
     for (const BodyGroup& g : groups_)
       if (g.time_stepped && std::ranges::find(g.bodies, context.search->body) != g.bodies.end())
-        context.search->searches.clear();  // of what was given up
+        context.search->searches.clear();  // of the attempt that was given up
   for (const CourseMotion& c : context.courses) {
     bodies[c.slot].v = c.at_start.v + h * c.change.v;
     bodies[c.slot].omega = c.at_start.omega + h * c.change.omega;

@@ -14,17 +14,18 @@
 
 namespace tumble {
 
-/// What a body remembers of ticks that were too much for its group. Trying costs a good share of
-/// the budget, so each time it fails again twice as many ticks are time-stepped without a try.
+/// How long a body is time-stepped after its group exceeded the budget. An attempt by events costs
+/// a good share of the budget, so each further failure doubles the number of ticks without an
+/// attempt.
 struct TimeSteppedTicks {
-  uint8_t left = 0;  ///< to be time-stepped without a try
-  uint8_t last = 0;  ///< how many they were the last time; 0 after a tick of events
+  uint8_t left = 0;  ///< ticks still to be time-stepped without an attempt
+  uint8_t last = 0;  ///< how many there were after the last failure; 0 after a tick of events
 
   void fail();
   bool operator==(const TimeSteppedTicks&) const = default;
 };
 
-/// The same of a particle.
+/// The same for a particle.
 struct TimeSteppedParticle {
   ParticleName particle;
   TimeSteppedTicks ticks;
@@ -37,32 +38,34 @@ struct TimeSteppedParticle {
 /// those that it may meet go with it.
 class EventStepper {
  public:
-  /// `links` tie bodies together: springs, joints of the context, what couples these. `context`
-  /// needs no laws: they are those of its settings. Sleeping bodies must be awake. An error leaves
-  /// the bodies anywhere.
+  /// Moves all bodies over a tick of h seconds. `links` are what ties bodies together: springs,
+  /// joints of the context, couplings. The law and method of `context` are overwritten by those
+  /// that its settings name. Sleeping bodies must have been woken. After an error the poses of the
+  /// bodies are undefined.
   Status step(std::span<RigidBody> bodies, BroadPhase& broad_phase, std::span<const BodyLink> links,
               const SmoothForces& forces, EventContext context, double h, Crew& crew);
 
-  /// At the end of the last tick, by group and pair. State: offsets and forces continue from here.
+  /// Contacts at the end of the last tick, by group and pair. State: accepted depths and forces
+  /// continue from here.
   std::vector<EventContact> contacts;
-  /// Particles that `contacts` name by their place here, with particle_bit. State.
+  /// The particles that slots with particle_bit in `contacts` stand for. State.
   std::vector<ParticleName> particles;
   EventStats stats;  ///< of the last tick
-  /// Of the last tick, by group; empty without EventContext::rates.
+  /// Books of the last tick, by group; empty without EventContext::rates.
   std::vector<GroupBooks> books;
 
-  /// Of the last tick, by joint slot: by how much its angles changed [rad]; nothing of joints that
-  /// no group moved by events.
+  /// By joint slot: change of its angles in the last tick [rad]; empty for joints that no group
+  /// moved by events.
   std::vector<std::optional<std::array<double, most_coordinates>>> turned;
 
-  /// By body slot, those of particles' blocks with them; bodies behind the end have none. State.
+  /// By body slot, with those of particles' blocks; zero beyond the end. State.
   std::vector<TimeSteppedTicks> time_stepped;
-  /// Between ticks, when they have no slots: of the particles that have any. State.
+  /// The same for particles, between ticks when they have no slots; only those with any. State.
   std::vector<TimeSteppedParticle> time_stepped_particles;
 
-  /// Drops what is known of a body that is removed or replaced.
+  /// Forgets a body that is removed or replaced.
   void remove_body(uint32_t body);
-  /// What the next tick reads.
+  /// Writes what the next tick reads.
   void save(ByteWriter& out) const;
   /// False when the bytes are cut short or name a body slot >= `body_slots`.
   bool load(ByteReader& in, uint32_t body_slots);
@@ -85,15 +88,15 @@ class EventStepper {
                  const PairFilter& apart);
 
   std::vector<BodyReach> reaches_;  ///< by slot
-  std::vector<BodyMotion> start_;   ///< of the tick, by slot
+  std::vector<BodyMotion> start_;   ///< by slot, at the start of the tick
   std::vector<bool> carried_;       ///< by slot: belongs to a group that is time-stepped
-  std::vector<uint64_t> spent_;     ///< by slot: of the work in this tick
+  std::vector<uint64_t> spent_;     ///< by slot: work that is charged to the body in this tick
   WindowReaches window_reaches_;
   ProxySet proxies_;
   std::vector<ProxyPair> pairs_;
   std::vector<BodyGroup> groups_;
-  std::vector<EventStats> counted_;  ///< by group
-  /// The equations of groups' joints, by the first of these; memory, no state.
+  std::vector<EventStats> counted_;  ///< statistics by group
+  /// The equations of groups' joints, by the group's first joint; kept to reuse memory, not state.
   std::unordered_map<uint32_t, Articulation> laid_out_;
   std::vector<uint32_t> group_of_, block_of_;  ///< by slot
 };

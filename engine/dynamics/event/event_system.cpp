@@ -23,15 +23,15 @@ void put_triple(std::span<double> y, size_t at, const Vec3& v) {
   y[at] = v.x(), y[at + 1] = v.y(), y[at + 2] = v.z();
 }
 
-/// The angular velocity that goes with an angular momentum. The product of a tensor and its
-/// inverse, both rotated, is off by what the rotation matrix lacks in orthogonality: what is left
-/// is corrected, or every tick would turn the momentum the same way.
+/// Angular velocity of a body with angular momentum L. The product of the rotated tensor and its
+/// rotated inverse is off by the error of orthogonality of the rotation matrix; the remainder is
+/// corrected, since otherwise every tick would rotate the angular momentum in the same sense.
 Vec3 turn_of(const Mat3& inertia, const Mat3& inverse, const Vec3& L) {
   const Vec3 turn = inverse * L;
   return turn + inverse * (L - inertia * turn);
 }
 
-/// R m R^T of a symmetric tensor.
+/// R m R^T of a symmetric tensor m.
 Mat3 turned(const Mat3& R, const Mat3& m) {
   const Mat3 half = R * m;
   Mat3 out;
@@ -156,7 +156,8 @@ const MovingBlocks& EventSystem::moving_blocks() {
   return moved_;
 }
 
-/// Impulses of joints and of what acts along their coordinates, and the work of the latter.
+/// Writes the forces of joints and drive parts, whose integrals are impulses, and the power of the
+/// latter.
 void EventSystem::write_joint_rates(std::span<double> dydt) const {
   std::copy(joint_forces_.begin(), joint_forces_.end(), &dydt[first_joint_impulse()]);
   if (drives_.empty()) return;
@@ -240,7 +241,7 @@ void EventSystem::write(double t, std::span<const double> y) {
     const size_t at = entries_per_body * i;
     b.pose.x = triple(y, at);
     b.pose.q = Quat(y[at + 3], y[at + 4], y[at + 5], y[at + 6]);
-    // Stages are off the unit sphere by a little; the rotation is that of the direction.
+    // Quaternions at stages of a step are not quite of unit length; normalising gives the rotation.
     b.pose.q.coeffs() /= b.pose.q.norm();
     b.v = b.inverse_mass * triple(y, at + 7);
     const uint32_t block = block_of_[dynamic_[i]];
@@ -274,7 +275,8 @@ void EventSystem::foresee_slip(double t, double h, std::span<const double> from)
   turning_.foresee(h, blocks_);
 }
 
-/// Friction that would stop a slip before the time it looks ahead to is that of the slip as it is.
+/// Treats a slip explicitly again where the implicit friction would stop it within the foreseen
+/// time. Returns whether there was any.
 bool EventSystem::end_foresight() {
   bool ended = turning_.end_foresight(report_.solved, points_, point_forces_);
   for (size_t k = 0; k < points_.size(); ++k) {
@@ -413,8 +415,8 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
     if (c.sliding) {
       Vec3 slip = b.velocity_at(g.x_world) - a.velocity_at(g.x_world) - c.surface_velocity;
       slip -= g.normal.dot(slip) * g.normal;
-      // The field goes on smoothly behind the moment at which slip ends; there its direction is
-      // that of rounding.
+      // Beyond the end of slip its direction is only rounding noise; the last direction keeps the
+      // equations smooth there.
       const double speed = slip.norm();
       p.slip = slip.dot(c.slip) >
                        std::max(tolerances::same_slip_cosine * speed, tolerances::no_slip_speed)
@@ -422,7 +424,7 @@ bool EventSystem::derivative(double t, std::span<const double> y, std::span<doub
                    : c.slip;
       const double ahead = foresight_[size_t(&c - contacts_.data())];
       if (ahead > 0) {
-        // What it will be must not vanish against friction, as where it rests.
+        // The friction of the future slip lies in the cone, as for a contact that sticks.
         p.sliding = false;
         p.tangential_bias += slip / ahead;
       }

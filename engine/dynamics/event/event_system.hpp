@@ -14,76 +14,79 @@
 
 namespace tumble {
 
-/// Sets force and torque of the given bodies to all that acts on them but contacts, from their
-/// poses and velocities, at a time [s] since the beginning of the tick.
+/// Sets force and torque of the given bodies to the sum of all that acts on them except contacts
+/// and joints, from their poses and velocities, at time t since the beginning of the tick [s].
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
-/// How a kinematic body goes through a tick in which its velocity changes evenly.
+/// Motion of a kinematic body whose velocity changes at a constant rate during a tick.
 struct CourseMotion {
   uint32_t slot = 0;
-  BodyVelocity at_start;  ///< of the tick
-  BodyVelocity change;    ///< per second
+  BodyVelocity at_start;  ///< at the start of the tick
+  BodyVelocity change;    ///< rate of change [1/s of the above]
 };
 
-/// Kinetic energy of a body that turns with an angular velocity [J].
+/// Kinetic energy of the rotation of a body with angular velocity `omega` in world axes [J].
 inline double turning_energy(const RigidBody& b, const Vec3& omega) {
   const Vec3 own = b.pose.inverse_direction(omega);
   return 0.5 * own.dot(b.inertia_body * own);
 }
 
-/// The equations of motion of a group of bodies within a mode: state (x, q, P, L) of each dynamic
-/// body, world axes; contacts closed or not for the whole of a step. Kinematic bodies move by their
-/// velocity, or as their courses have it. Derivatives leave the bodies where they were asked for:
-/// write() puts them right.
+/// The equations of motion of a group of bodies in one mode. The state is (x, q, P, L) of each
+/// dynamic body: position, orientation, momentum and angular momentum about the centre of mass,
+/// world axes. Which contacts are closed is fixed for a step. Kinematic bodies move with their
+/// velocity, or along their courses. derivative() leaves the bodies in the state that was
+/// evaluated; write() sets them to another.
 class EventSystem final : public ode::System {
  public:
-  /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` gives by slot the
-  /// place there, no_block for fixed bodies.
+  /// `moving` are the slots of the group's bodies, none of them fixed; `block_of` is, by slot, the
+  /// index in `moving`, no_block for fixed bodies.
   EventSystem(std::span<RigidBody> bodies, std::span<const uint32_t> moving,
               std::span<const uint32_t> block_of, const SmoothForces& forces,
               const ContactForceMethod& method);
 
-  /// The courses of kinematic bodies in the tick, by slot; before the first read(). Between steps
-  /// the bodies have the velocity of the moment; rest_courses() gives them that back which they
-  /// had.
+  /// Sets the courses of kinematic bodies in the tick, by slot; before the first read(). Between
+  /// steps the bodies have the velocity of the present time; rest_courses() restores the velocities
+  /// that they had before.
   void set_courses(std::span<const CourseMotion> courses);
   void rest_courses();
-  /// How much faster a body's centre becomes by its course, at most [m/s2].
+  /// Magnitude of the acceleration of a body's centre on its course [m/s2].
   double course_change(uint32_t slot) const;
 
-  /// The equations of joints of an earlier system, whose memory set_joints() uses where they are
-  /// laid out alike; and those of this one for the next.
+  /// Takes over the joint equations of an earlier system, whose memory set_joints() uses again if
+  /// the joints are the same; and gives away those of this one for the next.
   void take_joints(Articulation&& used) { joints_ = std::move(used); }
   Articulation&& give_joints() { return std::move(joints_); }
-  /// Joints that hold all the time, with what couples them; before book(). They must live as long.
-  /// What acts along their coordinates by more than smooth forces does so only if asked for.
+  /// The joints and couplings that hold throughout; before book(). They must outlive this. Parts
+  /// along their coordinates (EventDrives) are included only with Drives::held.
   void set_joints(const JointsAndCouplings& all, const JointChoice& which,
                   Articulation::Drives drives = Articulation::Drives::held);
-  /// The mode of what acts along coordinates that goes with the bodies' present state, where no
-  /// step has set it.
+  /// Sets the mode of the drive parts that the bodies' present state implies.
   void set_drive_modes();
-  /// Integrates what each cause does along with the motion, as quadratures behind the state.
+  /// Integrates the effects of each cause along with the motion, as quadratures appended to the
+  /// state.
   void book(const ForceRates& rates);
-  /// Adds what a step did, from the state at its end; the step began with what read() gave.
+  /// Adds the effects of a step, from the state at its end; the state at its beginning is that of
+  /// read().
   void add_books(std::span<const double> y, GroupBooks& books) const;
 
-  /// Contacts whose `closed` ones act, and the mode of what resists turning there, which goes with
-  /// the bodies as they are; they must live as long as steps are taken.
+  /// Sets the contacts, of which the `closed` ones act, and the mode of rolling and torsional
+  /// friction that the bodies' present velocities imply. The contacts must outlive the steps.
   void set_contacts(std::span<EventContact> contacts) {
     contacts_ = contacts;
     foresight_.assign(contacts.size(), 0);
     turning_.set(contacts, bodies_);
   }
   std::span<const TurningPart> turning() const { return turning_.parts(); }
-  /// To be called before a step of h seconds from a state: see slip_foresight().
+  /// To be called before a step of h seconds from state `from` at time t: decides which slips are
+  /// treated implicitly, see slip_foresight().
   void foresee_slip(double t, double h, std::span<const double> from);
-  /// Whether the last foresee_slip() found any: what happens then depends on the length of a step.
+  /// Whether the last foresee_slip() found any; then the forces depend on the length of the step.
   bool foresees() const;
-  /// The state as it is in the bodies; kinematic bodies are where they are at time t.
+  /// The present state of the bodies at time t; places kinematic bodies on courses.
   std::vector<double> read(double t);
-  /// Puts the bodies to a state.
+  /// Sets the bodies to a state.
   void write(double t, std::span<const double> y);
-  /// Of the last read() or write(), or set here [s].
+  /// Time of the last read() or write(), or set here [s].
   double now() const { return now_; }
   void set_now(double t) { now_ = t; }
 
@@ -95,41 +98,43 @@ class EventSystem final : public ode::System {
                       std::span<double> allowed) const override;
   std::string entry_name(size_t entry) const override;
 
-  /// Nothing but joints and forces acts, nor does any of them but within a step change its law:
-  /// what a step changes of the kinetic energy is their work.
+  /// Whether nothing acts but joints and smooth forces whose laws do not change within a step, so
+  /// that the change of kinetic energy must equal the work of the forces.
   bool only_jointed() const;
-  /// Of motors of any strength, and of motors and friction that do not hold, in a step, from the
-  /// state at its end [J].
+  /// Work in the last step of motors of unlimited force, and of motors and friction that do not
+  /// hold, from the state at its end [J].
   double drive_work(std::span<const double> y) const;
-  /// Of the forces on the bodies as they are [W]; the forces in them stay what they were.
+  /// Power of the smooth forces on the bodies in their present state [W]; leaves the forces stored
+  /// in the bodies unchanged.
   double power(double t);
-  /// That of rotors behind armatures included.
+  /// Kinetic energy of the bodies, with that of rotors (armatures) [J].
   double kinetic_energy() const;
-  /// The same of a state to which write() has just put the bodies.
+  /// The same for a state that write() has just set.
   double kinetic_energy(std::span<const double> y) const;
 
-  /// Of the last derivative.
+  /// Report of the last derivative().
   const ContactForceReport& report() const { return report_; }
   Articulation& joints() { return joints_; }
   const Articulation& joints() const { return joints_; }
   EventDrives& drives() { return drives_; }
   const EventDrives& drives() const { return drives_; }
-  /// Of the last derivative, by row of the joints.
+  /// Forces of the last derivative(), by row of the joints.
   std::span<const double> joint_forces() const { return joint_forces_; }
-  /// Of the last derivative, by block: v and omega hold accelerations.
+  /// Accelerations of the last derivative(), by block, in v and omega.
   std::span<const DofBlock> accelerations() const { return blocks_; }
-  /// After a derivative that found no forces: how the points of the contacts move against each
-  /// other without any, B as seen from A, zero for those that do not act [m/s2].
+  /// After a derivative() that found no forces: by contact, the acceleration of B's point relative
+  /// to A's without contact forces; zero for contacts that do not act [m/s2].
   std::vector<Vec3> free_accelerations() const;
 
  private:
   struct Carried {
     uint32_t slot;
-    Pose pose;  ///< and velocity, at a moment
+    Pose pose;  ///< pose and velocity at time `since`
     BodyVelocity velocity;
-    double since = 0;                             ///< the moment
-    BodyVelocity change;                          ///< per second
-    std::optional<BodyVelocity> given, at_start;  ///< of those on a course
+    double since = 0;     ///< [s]
+    BodyVelocity change;  ///< rate of change of the velocity
+    /// Of bodies on courses: velocity to restore, velocity at the start of the tick.
+    std::optional<BodyVelocity> given, at_start;
   };
   void place_kinematic(double t);
   size_t first_quadrature() const { return 13 * dynamic_.size(); }
@@ -154,15 +159,15 @@ class EventSystem final : public ode::System {
   std::vector<ode::EntryKind> kinds_;
   const ForceRates* rates_ = nullptr;
   std::vector<uint32_t> causes_;
-  std::vector<CauseEffect> effects_;  ///< of the causes, per second
+  std::vector<CauseEffect> effects_;  ///< effects of the causes, as rates
   size_t quadratures_ = 0;
   double now_ = 0;
   Articulation joints_;
   std::vector<double> joint_forces_;
   EventDrives drives_;
-  std::vector<BoundedRow> rows_;  ///< of what holds along coordinates
+  std::vector<BoundedRow> rows_;  ///< rows of drive parts that hold
   std::span<EventContact> contacts_;
-  std::vector<double> foresight_;  ///< by contact [s]
+  std::vector<double> foresight_;  ///< by contact: SlipForesight::time [s]
   EventTurning turning_;
   ContactForceReport report_;
   std::vector<DofBlock> blocks_, free_;            ///< with and without contact forces
@@ -171,7 +176,7 @@ class EventSystem final : public ode::System {
   std::vector<std::pair<Vec3, Vec3>> kept_forces_;
   std::vector<ForcePoint> points_;
   std::vector<Vec3> point_forces_;
-  std::vector<EventContact*> acting_;  ///< closed contacts, by point
+  std::vector<EventContact*> acting_;  ///< closed contacts, in the order of points_
 };
 
 }  // namespace tumble

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Of two materials, where one of them names it.
+/// Lever arm combined of two materials; 0 unless at least one of them names it.
 double combined_arm(std::optional<double> a, std::optional<double> b) {
   if (!a && !b) return 0;
   return std::sqrt(a.value_or(default_turning_friction) * b.value_or(default_turning_friction));
@@ -20,7 +20,7 @@ bool turns_by_torques(const RigidBody& b) {
   return b.dynamic() && !is_particle(b) && !b.inverse_inertia_world().isZero(0);
 }
 
-/// Whether any of the two bodies answers to a torque of the other.
+/// Whether a torque between the two bodies turns any of them.
 bool answers(const EventContact& c, std::span<const RigidBody> bodies) {
   const RigidBody &a = bodies[c.key.body_a], &b = bodies[c.key.body_b];
   return !is_particle(a) && !is_particle(b) && (turns_by_torques(a) || turns_by_torques(b));
@@ -40,8 +40,8 @@ void set_mode(TurningPart& p, const Turning& now) {
     p.spin = now.spinning > 0 ? 1 : -1;
 }
 
-/// The direction that rolling has; behind the moment at which it ends, where that is of rounding,
-/// that of the start of the step.
+/// The present direction of rolling; beyond the moment at which rolling ends, where it is only
+/// rounding noise, the direction at the start of the step.
 Vec3 axis_now(const TurningPart& part, const Vec3& rolling) {
   const double speed = rolling.norm();
   const bool same = rolling.dot(part.axis) >

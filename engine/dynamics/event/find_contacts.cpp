@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// Several manifolds, or a face and its nearest point, may have the same point.
+/// Removes points that several manifolds, or a face and its nearest point, have in common.
 void drop_duplicates(std::span<const RigidBody> bodies, double near,
                      std::vector<EventContact>& contacts, size_t first) {
   std::vector<ElementPlace> seen;
@@ -28,8 +28,8 @@ void drop_duplicates(std::span<const RigidBody> bodies, double near,
                  contacts.end());
 }
 
-/// Whether elements that were chosen for a manifold point say what the shapes do there: no feature
-/// is deeper than the shapes are, and lines do not meet beyond the ends of their edges.
+/// Whether the elements chosen for a manifold point describe the shapes there: they overlap no
+/// deeper than the shapes, and edges do not meet beyond their ends.
 bool plausible(const ElementPlace& g, const EventPair& pair, const Vec3& x_world, double size) {
   if (!g.regular) return false;
   if (g.gap < pair.gap.gap - tolerances::deepest_unseen) return false;
@@ -37,8 +37,8 @@ bool plausible(const ElementPlace& g, const EventPair& pair, const Vec3& x_world
          (g.x_world - x_world).norm() <= tolerances::far_off_of_size * size + std::fabs(g.gap);
 }
 
-/// Whether a manifold point is deeper than the shapes are, and than what was accepted: where
-/// surfaces cross by rounding alone the narrow phase may be wrong about how far.
+/// Whether a manifold point is deeper than the shapes are, and than the accepted depth: where
+/// surfaces cross only by rounding, the depth of the narrow phase may be wrong.
 bool too_deep(const ManifoldPoint& p, const PairGap& pair, double accepted) {
   const double deepest = pair.gap - tolerances::deepest_unseen;
   const bool touch = pair.near && pair.gap >= -tolerances::deepest_unseen;
@@ -104,7 +104,8 @@ std::vector<EventContact> find_event_contacts(std::span<const RigidBody> bodies,
       }
     };
     for (const Manifold& m : manifolds) add(m);
-    // What is in must not stay without a contact because all that were found are implausible.
+    // A pair that overlaps must not be left without a contact because all that were found are
+    // implausible.
     const bool inside = pair.gap.near && pair.gap.gap < -tolerances::seen_depth;
     if (inside && out.size() == first) add(nearest_point(pair.gap));
     drop_rim_points(out, first);

@@ -61,12 +61,13 @@ void FirstEvent::let_part(double t, double step, double hop, ValueWatch& w) {
   }
   place_at(t);
   if (w.value > away || hop == 0) return;
-  // It never gets that far away: then it counts as back where it overlaps by more than `more`.
+  // The gap never grows that much: the contact then closes again once it overlaps by more than
+  // `more`.
   const double more = hop - std::min(start, 0.0);
   w = {[value_now = w.value_now, more] { return value_now() + more; }, 0, start + more, w.traced};
 }
 
-/// Limits of joints that are reached; motors and friction whose rate is.
+/// Watches limits of joints that may be reached, and motors and friction whose rate may be.
 void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& watched) {
   for (const DrivePart& p : state_.system.drives().parts()) {
     if (p.holds) continue;
@@ -85,7 +86,7 @@ void FirstEvent::watch_drives(double t, double step, std::vector<ValueWatch>& wa
   }
 }
 
-/// Rolling and spinning that ends.
+/// Watches for the end of rolling and spinning.
 void FirstEvent::watch_turning(std::vector<ValueWatch>& watched) {
   for (const TurningPart& p : state_.system.turning()) {
     const auto now = [this, &p] { return turning_of(p, state_.contacts, state_.bodies); };

@@ -1,4 +1,4 @@
-// What an event group says where there are no impulses: who is crushed between whom.
+// Errors of an event group where no impulses exist: which bodies are crushed between which.
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/event/group_state.hpp"
 #include "engine/dynamics/event/impulses/crush.hpp"
@@ -23,7 +23,8 @@ std::string names_of(const EventContext& context, std::span<const uint32_t> slot
   return out;
 }
 
-/// Who is crushed between whom, if there are no impulses at these contacts.
+/// The error that names the crushed bodies, if it is proved that no impulses exist at these
+/// contacts.
 std::optional<Error> crush_of(GroupState& state, std::span<const size_t> which) {
   std::vector<ImpactPoint> points;
   for (const size_t i : which)

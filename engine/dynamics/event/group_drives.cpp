@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// The row whose velocity leads away from a limit.
+/// The row, directed away from a limit.
 Row row_inwards(const DrivePart& limit, const Row& along) {
   Row out = along;
   for (RowSide* s : {&out.a, &out.b}) {

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// What acts along the coordinates of a group's joints, at one moment: limits that are reached, and
-/// what holds from then on.
+/// The drive parts of a group at one moment: limits that are reached and collide, and which parts
+/// hold from then on.
 class GroupDrives {
  public:
   explicit GroupDrives(GroupState& state) : state_(state) {}
@@ -13,27 +13,27 @@ class GroupDrives {
   bool accept_depths(double worked_off) {
     return drives().accept_depths(state_.bodies, state_.system.now(), worked_off);
   }
-  /// From here on angles are counted, and steps begin. Rows of joints whose rate is off, and those
-  /// of motors of any strength, get it by an impulse; such motors stand where they would drive
-  /// beyond a limit. Gives these impulses by row of the joints, empty if there are none, and the
-  /// velocities then.
+  /// Begins counting of angles, and of steps. Rows of joints whose rate is wrong, motors of
+  /// unlimited force among them, get their rate by an impulse; such motors stop where they would
+  /// drive beyond a limit. Returns these impulses by row of the joints, empty if none are needed;
+  /// `moving` are then the velocities after them.
   std::vector<double> start_joints(std::vector<DofBlock>& moving);
-  /// Limits that are reached, by part.
+  /// The limits that are reached, by index of part.
   std::vector<size_t> touching() const;
-  /// Whether any of these is approached so fast that it collides.
+  /// Whether any of these is approached fast enough to collide.
   bool hit(std::span<const size_t> touching) const;
-  /// Points of a collision, behind those that are there, of limits that are reached; counts impacts
-  /// of those that are approached. Gives the fastest approach of any [m/s, rad/s].
+  /// Appends points of a collision for limits that are reached; counts an impact for those that are
+  /// approached. Returns the fastest approach [m/s, rad/s].
   double add_points(std::span<const size_t> touching, std::vector<ImpactPoint>& points);
-  /// The mode that goes with the velocities.
+  /// Sets the mode that the present velocities imply.
   void set_modes() { drives().set_modes(state_.bodies, state_.system.now()); }
 
-  /// Rows whose velocity must be another one, and by how much: of what holds with less than all of
-  /// its force.
+  /// Appends rows whose velocity must change, and by how much: of parts that hold with a force
+  /// within its bounds.
   void add_velocities(std::vector<Row>& rows, std::vector<double>& wanted) const;
-  /// Likewise of displacements: of limits that hold or are passed.
+  /// The same for displacements: of limits that hold or are passed.
   void add_positions(std::vector<Row>& rows, std::vector<double>& wanted) const;
-  /// Whether what holds under a force is still where it should be.
+  /// Whether parts that hold under load still have their rate and place.
   bool kept() const;
 
  private:
@@ -47,7 +47,7 @@ class GroupDrives {
   Row row(const DrivePart& p) const {
     return drives().look(p.of, state_.bodies, state_.system.now()).row;
   }
-  /// Whether a series of bounces comes to its end within the tick (Zeno).
+  /// Whether a series of bounces at a limit ends within the tick (Zeno).
   bool ends_series(const DrivePart& limit, double approach) const;
 
   GroupState& state_;

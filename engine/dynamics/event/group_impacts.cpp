@@ -1,4 +1,5 @@
-// What an event group does at one moment: closes contacts, and resolves what collides or jams.
+// Impulses of an event group at one moment: collisions and jams; and which contacts are closed
+// then.
 #include "engine/dynamics/event/group_impacts.hpp"
 
 #include "engine/core/stop.hpp"
@@ -17,20 +18,21 @@
 namespace tumble {
 namespace {
 
-/// Whether what leaves at a speed comes back before digits of places tell that it was away.
+/// Whether a body that leaves with this speed falls back before rounding of positions shows that it
+/// left.
 bool hops_unseen(const EventContact& c, const ElementGap& g, std::span<const RigidBody> bodies,
                  double speed) {
   return speed * speed < -2 * least_hop(g.x_world) * free_acceleration(c, g, bodies);
 }
 
-/// A contact that was closed may have drifted by what the step and the forces erred.
+/// A contact that was closed may have drifted by errors of the step and of the forces.
 bool touches(const EventContact& c, const ElementGap& g) {
   return c.room(g) <= (c.closed ? tolerances::closed_distance : tolerances::touch_distance);
 }
 
 }  // namespace
 
-/// J (v- + v+)/2 at each point, which adds up to what the impulses did.
+/// Books J (v- + v+)/2 at each point; these works add up to the change of energy.
 void GroupImpacts::book_impulses(std::span<const ImpactPoint> points,
                                  std::span<const Vec3> impulses,
                                  std::span<const double> joint_impulses,
@@ -126,20 +128,22 @@ Status GroupImpacts::collide(std::span<const size_t> touching, std::span<const s
     if (g.rate >= -tolerances::collision_speed) continue;
     const bool unseen = hops_unseen(c, g, state_.bodies, -c.restitution * g.rate);
     c.impacts += -g.rate >= tolerances::still_speed && !unseen;
-    // A series of bounces that comes to its end within the tick (Zeno), or has come to it.
+    // No restitution at the end of a series of bounces (Zeno), or for bounces that cannot be
+    // resolved.
     if (-g.rate < tolerances::still_speed || unseen ||
         (c.impacts > tolerances::many_impacts &&
          -g.rate < tolerances::zeno_of_gravity_tick * (state_.context.gravity * state_.part.tick)))
       p.restitution = 0;
   }
   fastest = std::max(fastest, drives_.add_points(limits, points));
-  // Nor do those bounce that they pass it on to.
+  // Then the points to which the impact is transmitted do not rebound either.
   if (fastest < tolerances::still_speed)
     for (ImpactPoint& p : points) p.restitution = 0;
   std::vector<DofBlock> moving = state_.blocks();
   const Articulation& joints = state_.joints_now();
   ImpactReport report = state_.context.law(moving, points, joints);
-  // Where the points depend on each other so that no solver answers, one after the other does.
+  // If no solver answers because points depend on each other, they are resolved one after the
+  // other.
   if (report.status == ImpactStatus::unsolved) {
     ++stats.fallbacks;
     report = sequential_impacts(moving, points, joints);
@@ -208,7 +212,7 @@ Status GroupImpacts::resolve(EventStats& stats) {
   close_contacts();
   drives_.set_modes();
   projection_.project();
-  // Where others stick, so does what cannot slide without them.
+  // A contact whose slip the projection of others has removed does not slide.
   for (EventContact& c : state_.contacts)
     if (c.sliding)
       c.sliding =

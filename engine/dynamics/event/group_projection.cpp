@@ -1,4 +1,5 @@
-// What an event group puts right after a step: velocities and positions of closed contacts.
+// Corrections of an event group after a step: velocities and positions of closed contacts and
+// joints.
 #include "engine/dynamics/event/group_projection.hpp"
 
 #include "engine/core/work_meter.hpp"
@@ -13,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// change_least() as far as the joints leave it.
+/// change_least() for vectors, compatible with the joints.
 void change_with(std::span<const Row> rows, std::span<const double> wanted,
                  const Articulation& joints, std::vector<DofBlock>& moving) {
   change_least(rows, Eigen::Map<const Eigen::VectorXd>(wanted.data(), Eigen::Index(wanted.size())),
@@ -73,7 +74,7 @@ JointDrift GroupProjection::hold_joints(ContactCause cause) {
   moving_.resize(slots.size());
   put_velocities(state_.bodies, slots, moving_);
   if (open <= tolerances::closed_joint && joints.rates_held(moving_)) return {open, 0};
-  bool known = false;  // whether the factorised rows are still near those of now
+  bool known = false;  // whether the factorised rows are still near the present ones
   double before = 2 * open, now = open;
   for (int n = 0;
        n < tolerances::most_projections && now > tolerances::closed_joint && now < before; ++n) {
@@ -98,7 +99,7 @@ JointDrift GroupProjection::hold_joints(ContactCause cause) {
 void GroupProjection::project() {
   charge_work(4 * prices::gap, state_.contacts.size());
   if (!state_.system.joints().empty()) {
-    // A joint that is not quite closed is seen; a velocity that is off by as little is not.
+    // Positions first: the openings of joints are watched more strictly than such small velocities.
     close_up();
     hold_joints();
     project_velocities();
@@ -109,8 +110,7 @@ void GroupProjection::project() {
 }
 
 void GroupProjection::close_up(ContactCause cause) {
-  // One step is enough where nothing but the error of a step is put right; overlap that is worked
-  // off goes farther.
+  // One iteration suffices for the error of a step; overlap that is worked off is larger.
   for (int n = 0;
        n < tolerances::most_close_ups && project_positions(cause) > tolerances::closed_distance;
        ++n) {
@@ -136,7 +136,7 @@ void GroupProjection::project_velocities() {
   }
   add_turning(rows, wanted);
   drives_.add_velocities(rows, wanted);
-  // What rests has no more to put right than the last digits, and a search would go on in them.
+  // Nothing to correct but rounding error, in which the iteration would not converge.
   const auto wrong = [](double w) { return std::fabs(w) > tolerances::rounding_speed; };
   if (std::none_of(wanted.begin(), wanted.end(), wrong)) return;
   std::vector<DofBlock> moving = state_.blocks();
@@ -172,7 +172,8 @@ double GroupProjection::project_positions(ContactCause cause) {
   double most = 0;
   for (const EventContact& c : state_.contacts) {
     const ElementGap g = push_gap(c, state_.bodies);
-    // What leaves again but was found when it was in would be a little deeper at every bounce.
+    // An open contact that overlaps is corrected too, or a bouncing body would sink at every
+    // bounce.
     if (!c.closed && !(c.room(g) < -tolerances::touch_distance)) continue;
     rows.push_back(row_at(c, g, g.normal));
     wanted.push_back(-c.room(g));
@@ -224,7 +225,8 @@ void GroupProjection::work_off_overlap() {
 void GroupProjection::work_off_openings() {
   const double worked_off =
       (state_.part.end - state_.part.begin) * state_.context.settings.recovery_speed;
-  // No more than a step may open them is what the integrator erred.
+  // An opening of no more than a step may cause is an error of integration, not one that was there
+  // before.
   if (state_.system.joints().accept_errors(state_.bodies, state_.system.now(),
                                            std::max(tolerances::open_per_step, worked_off)))
     hold_joints(ContactCause::offset);

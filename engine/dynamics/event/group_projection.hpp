@@ -3,47 +3,48 @@
 
 namespace tumble {
 
-/// What GroupProjection::hold_joints() put right.
+/// How far joints were off before GroupProjection::hold_joints() corrected them.
 struct JointDrift {
   double open = 0;     ///< how far joints had come open [m, rad]
-  double changed = 0;  ///< kinetic energy of the change of velocities [J]
+  double changed = 0;  ///< kinetic energy of the correction of velocities [J]
 };
 
-/// Puts right what a step or an event left of velocities and positions that closed contacts and
-/// joints do not have, by the least change, and books what it does.
+/// Removes, by the least change, errors of velocities and positions that a step or an event left at
+/// closed contacts and joints, and books the effects.
 class GroupProjection {
  public:
   explicit GroupProjection(GroupState& state) : state_(state), drives_(state) {}
 
   void project();
-  /// Puts the joints right by themselves; what happens then begins with bodies that they hold.
-  /// `cause` is that of displacements.
+  /// Corrects the joints alone, so that what follows starts from bodies that satisfy them. The
+  /// displacement is booked under `cause`.
   JointDrift hold_joints(ContactCause cause = ContactCause::projection);
-  /// What was there before of overlap, and of joints that do not fit, is worked off; see
+  /// Work off overlap, and errors of joints, that existed before; see
   /// EventSettings::recovery_speed.
   void work_off_overlap();
   void work_off_openings();
-  /// Kinetic energy of all bodies about their common centre of mass.
+  /// Kinetic energy relative to the common centre of mass [J].
   double inner_energy() const;
 
  private:
-  /// Velocities that closed contacts and those that stick do not have.
+  /// Removes normal velocities at closed contacts, slip at sticking ones, and turning that is held
+  /// at zero.
   void project_velocities();
-  /// Gives how far the contact was off that was farthest off [m].
+  /// Corrects the positions of contacts once; returns the greatest error that it found [m].
   double project_positions(ContactCause cause);
-  /// project_positions() until nothing is off.
+  /// Repeats project_positions() until no error is left.
   void close_up(ContactCause cause = ContactCause::projection);
   void move_bodies(std::span<const DofBlock> displacements,
                    ContactCause cause = ContactCause::projection);
-  /// Turning that is held at none, and what must become of it.
+  /// Appends the rows of turning that is held at zero, with the wanted change.
   void add_turning(std::vector<Row>& rows, std::vector<double>& wanted) const;
   Row row_at(const EventContact& contact, const ElementGap& gap, const Vec3& axis) const;
-  /// Gives the kinetic energy of the change.
+  /// Books a change of velocities; returns the kinetic energy of the change alone [J].
   double book(std::span<const DofBlock> after);
 
   GroupState& state_;
   GroupDrives drives_;
-  std::vector<DofBlock> moving_;  ///< of hold_joints()
+  std::vector<DofBlock> moving_;  ///< scratch memory of hold_joints()
   std::vector<double> pushes_;
 };
 

@@ -88,7 +88,8 @@ ImpactPoint GroupState::impact_point(const EventContact& c, const ElementGap& g)
 }
 
 void GroupState::find_contacts(bool accept_overlap) {
-  // As far as they may come in the part of the tick, but no more than half a body.
+  // As far as the bodies may come in the part of the tick, but no more than half the smaller one's
+  // radius.
   const double h = part.end - part.begin;
   for (EventPair& p : pairs) {
     const RigidBody &a = bodies[p.a.body], &b = bodies[p.b.body];

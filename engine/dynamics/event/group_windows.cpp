@@ -202,7 +202,7 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
   for (size_t i = 0; i < c.group.bodies.size(); ++i) block_of_[c.group.bodies[i]] = uint32_t(i);
   c.done = true;
   if (run_whole(c, part) || stop_requested()) return;
-  // Halves would only cost more.
+  // The budget is exceeded already: halves would only cost more.
   if (!c.status && c.stats.work > context_.allowed_work(bodies_, c.group.bodies, part.tick)) return;
   start_again(c);
   c.status =
@@ -210,8 +210,8 @@ void GroupWindows::run(Cluster& c, const TickPart& part) {
           .advance(part, c.stats);
 }
 
-/// What is to be halved again is not worth it to be gone through again: its bodies hit each other,
-/// and then go faster.
+/// Widens the reaches in clusters that will be halved, whose bodies hit each other and become
+/// faster: to repeat such a window costs more than a few clusters too large.
 void GroupWindows::foresee_crowds() {
   if (depth_ >= tolerances::most_window_halvings) return;
   for (uint32_t i = 0; i < group_.bodies.size(); ++i)
@@ -323,7 +323,7 @@ void GroupWindows::commit(EventStats& stats) {
       for (EventContact& c : w.contacts) c.offset = 0;
   for (const Cluster& c : clusters_) {
     EventStats counted = c.stats;
-    counted.work = 0;  // with that of clusters that were given up it is in already
+    counted.work = 0;  // the work, with that of attempts that were given up, is counted already
     stats.include(counted);
     add_books(c);
     for (size_t i = 0; i < c.pairs.size(); ++i) {

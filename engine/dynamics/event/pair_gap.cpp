@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// Furthest along n, own frame. A mesh reaches as far as its vertices.
+/// The point furthest along n in the shape's frame; for a mesh, its furthest vertex.
 Vec3 support(const Shape& s, const Vec3& n) {
   if (const ConvexShape* c = s.convex()) return c->support(n);
   const std::vector<Vec3>& vertices = s.polyhedral()->surface().mesh->vertices;
@@ -27,7 +27,7 @@ double rounding(const Shape& s) {
   return s.convex() ? s.convex()->rounding() : 0;
 }
 
-/// Furthest along n of a shape at a pose, relative to `origin`.
+/// Support height along n of a shape at a pose, relative to `origin` [m].
 double reach_along(const Shape& s, const Pose& pose, const Vec3& origin, const Vec3& n) {
   const Vec3 local = pose.inverse_direction(n);
   const double at = n.dot(pose.x - origin);
@@ -48,9 +48,9 @@ PairGap against_half_space(const Pose& plane, const Shape& b, const Pose& pose_b
   return g;
 }
 
-/// B is a ball, A has a closed form of nearest points. Nothing where the ball's centre is in A or
-/// nearly: there the way out that was last taken counts, and not the shortest. Balls in one place
-/// part along y.
+/// Gap of a ball (B) and a shape with a closed form of nearest points. None where the ball's centre
+/// is inside of A or nearly so: there the normal of the last time counts, not the nearest way out.
+/// Two balls with coinciding centres are separated along y.
 std::optional<PairGap> to_ball(const Shape& a, const Pose& pose_a, const Shape& ball,
                                const Vec3& centre, double margin) {
   const auto nearest = a.convex()->nearest(pose_a.inverse_point(centre));

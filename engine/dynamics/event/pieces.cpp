@@ -21,12 +21,12 @@ const MeshSurface& surface_of(const Shape& s) {
   return s.polyhedral()->surface();
 }
 
-/// One piece, with its place in a frame with world axes.
+/// One piece, placed in a frame with world axes.
 struct Piece {
   std::optional<TriangleCore> triangle;
   PlacedCore core;
   double rounding = 0, size = 0;
-  Vec3 face = Vec3::Zero();  ///< normal of a triangle
+  Vec3 face = Vec3::Zero();  ///< unit normal of a triangle
 
   Piece(const Shape& s, uint32_t id, const Quat& q, const Vec3& x) {
     if (id == no_index) {
@@ -45,7 +45,8 @@ struct Piece {
   Piece& operator=(const Piece&) = delete;
 };
 
-/// The normals from which a search may start: of faces, across which flat pieces part.
+/// The greatest separation of two pieces; if they touch, the search also starts from face normals,
+/// along which flat pieces separate.
 CoreContact touching_gap(const CorePair& cores, const Piece& a, const Piece& b, double farthest,
                          const Vec3& towards_b) {
   CoreContact best = core_gap(cores, farthest, towards_b);
@@ -62,8 +63,9 @@ Aabb bounds_of(const AabbTree::Node& n, const Vec3& origin) {
   return {origin + Vec3(n.min[0], n.min[1], n.min[2]), origin + Vec3(n.max[0], n.max[1], n.max[2])};
 }
 
-/// The box about a convex shape in its own axes, grown by `reach`, against a mesh's boxes and
-/// triangles: apart along a face axis of either box means farther than that.
+/// The box about a convex shape in its own axes, inflated by `reach`, tested against boxes and
+/// triangles of a mesh. If they are apart along a face axis of either box, the distance is more
+/// than `reach`.
 class ReachBox {
  public:
   ReachBox(const Shape& convex, const Pose& in_mesh, double reach)
@@ -102,7 +104,7 @@ void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, co
     return n.dot(relative.point(c.support(-local))) > offset + far ||
            n.dot(relative.point(c.support(local))) < offset - far;
   };
-  // The tree's boxes are in single precision.
+  // The tree's boxes are rounded to single precision.
   const ReachBox box(other, relative,
                      reach + tolerances::box_rounding_of_size * (s.size + other.bounding_radius()));
   const auto& nodes = s.tree->nodes();
@@ -131,10 +133,10 @@ void near_triangles_of(const Shape& mesh, const Pose& at, const Shape& other, co
   std::sort(out.begin(), out.end());
 }
 
-/// The least gap of a triangle and a convex shape among those that alternating projections come
-/// across (von Neumann; between convex sets they end at the nearest points): the triangle nearest
-/// to a point of the shape, the point of the shape nearest to that triangle, and so on. 0 where
-/// one of them touches.
+/// An upper bound of the least gap of a mesh and a convex shape, found by alternating projections
+/// (von Neumann; between convex sets they converge to the nearest points): the triangle nearest to
+/// a point of the shape, the point of the shape nearest to that triangle, and so on. 0 where one of
+/// the triangles touches.
 double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex,
                           const Pose& convex_at, double farthest) {
   const MeshSurface& s = surface_of(mesh);
@@ -153,8 +155,8 @@ double gap_by_projections(const Shape& mesh, const Pose& at, const Shape& convex
   }
 }
 
-/// Where two surfaces are nearest, if they are within `farthest`. The normal is good where they are
-/// well apart.
+/// The nearest points of two meshes, if they are within `farthest`. The normal is accurate where
+/// the meshes are well apart.
 std::optional<NearestPieces> mesh_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                            const Pose& pose_b, double farthest) {
   charge_work(prices::tree_search);
@@ -247,7 +249,7 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
   best.gap.gap = (pose_b.x - pose_a.x).norm() - a.bounding_radius() - b.bounding_radius();
   if (best.gap.gap > margin) return best;
   const double size = std::min(a.bounding_radius(), b.bounding_radius());
-  // A bound from above of the least gap, beyond which no pieces need be looked at.
+  // An upper bound of the least gap; pieces farther apart need not be examined.
   double reach = margin;
   if (a.is_mesh() && b.is_mesh()) {
     const auto nearest = mesh_distance(a, pose_a, b, pose_b, margin);
@@ -259,7 +261,7 @@ NearestPieces nearest_pieces(const Shape& a, const Pose& pose_a, const Shape& b,
     reach = a.is_mesh() ? gap_by_projections(a, pose_a, b, pose_b, margin)
                         : gap_by_projections(b, pose_b, a, pose_a, margin);
   }
-  reach = std::min(margin, reach + tolerances::nearest_of_size * size);  // which rounding may hide
+  reach = std::min(margin, reach + tolerances::nearest_of_size * size);  // plus rounding error
   std::vector<PiecePair> near;
   for (;; reach = std::min(margin, tolerances::reach_growth *
                                        std::max(reach, tolerances::first_reach_of_size * size))) {

@@ -18,8 +18,8 @@ double sum_of_products(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return sum;
 }
 
-/// Conjugate residuals (Stiefel 1955) on the Delassus matrix, from zero, which gives the least
-/// impulses.
+/// Conjugate residuals (Stiefel 1955) on the Delassus matrix, started from zero, which gives the
+/// impulses of least norm.
 void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wanted,
                            std::span<DofBlock> blocks, const Articulation& joints) {
   const auto n = Eigen::Index(rows.size());
@@ -41,7 +41,7 @@ void change_through_joints(std::span<const Row> rows, const Eigen::VectorXd& wan
        k < tolerances::residual_steps + tolerances::residual_steps_per_row * n && !stop_requested();
        ++k) {
     const double square = sum_of_products(rest, rest);
-    // What is left is small, or such that no impulse changes it.
+    // The residual is small, or no impulse can reduce it.
     if (square <= goal || !(work > tolerances::without_effect * stiffest * square)) break;
     const double step = work / sum_of_products(moved, moved);
     z += step * direction;

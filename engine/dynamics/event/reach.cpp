@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-/// Of turning alone: a sphere about its centre of mass has the same points everywhere.
+/// Radius for displacement by rotation: 0 for a ball about its centre of mass, which rotation
+/// leaves unchanged.
 double turning_radius(const RigidBody& b) {
   if (!std::isfinite(b.bounding_radius)) return 0;
   if (b.shapes.size() == 1 && b.shapes[0].shape->is_ball() && b.shapes[0].pose.x.isZero(0))

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// Of a point in all directions together, an upper bound of that in any [1/kg].
+/// Trace of the compliance at a point: an upper bound of that in any direction [1/kg].
 double compliance(const RigidBody& body, const Vec3& x) {
   if (!body.dynamic()) return 0;
   const Vec3 arm = x - body.pose.x;

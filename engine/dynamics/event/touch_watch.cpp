@@ -21,7 +21,7 @@ Vec3 swing_of(const RigidBody& b) {
   return b.omega - u.dot(b.omega) * u;
 }
 
-/// Bounds on the speed and the acceleration that swinging gives to points.
+/// Bounds on speed and acceleration of points by the rotation of one body.
 struct SwingBounds {
   double speed, bend;
   SwingBounds(const SwingMotion& t0, const SwingMotion& t1, double step) {
@@ -67,7 +67,7 @@ TouchWatch::TouchWatch(const EventPair& pair, const PiecePair& pieces,
   const double size = std::min(a.bounding_radius, b.bounding_radius);
   dip_ = std::min(tolerances::deepest_dip, tolerances::dip_of_size * size);
   const double depth = std::max(0.0, -tolerances::seen_depth - gap);
-  // What is in may come in as far as was accepted.
+  // Pieces that overlap may do so as deep as was accepted.
   allowed_ = tolerances::deepest_unseen + (depth > 0 ? std::max(depth, pair.offset) : 0);
   passed_ = last_ = {a.pose, b.pose, normal, gap + allowed_};
 }
@@ -87,7 +87,7 @@ TouchWatch::Look TouchWatch::look(std::span<const RigidBody> bodies, double sinc
   const Pose &a = bodies[pair_->a.body].pose, &b = bodies[pair_->b.body].pose;
   const Vec3& n0 = passed_.normal;
   last_ = {a, b, n0, separation(bodies, n0) + allowed_};
-  // Normals are those of a face of one of the two, most often.
+  // Most often the normal is that of a face of one of the two: try it as it turns with either body.
   for (const auto& [then, now] : {std::pair(&passed_.a, &a), std::pair(&passed_.b, &b)}) {
     if (last_.room > 0) break;
     const Vec3 carried = now->direction(then->inverse_direction(n0));

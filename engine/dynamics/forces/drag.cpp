@@ -25,9 +25,10 @@ void apply(const QuadraticDragDef& def, ForceContext& context) {
   // At one moment there is no step that could overshoot.
   const double h = context.momentary ? 0 : context.h;
   const double half = 0.5 * def.fluid_density * def.coefficient;
+  const Vec3 wind = def.wind.now();
   // du/dt = -k |u| u has the solution u(h) = u / (1 + k |u| h).
   const auto drag = [&](const Vec3& v, double area, double mass) -> Vec3 {
-    const Vec3 u = v - def.wind;
+    const Vec3 u = v - wind;
     const double k = half * area / mass, speed = u.norm();
     return -mass * k * speed / (1 + k * speed * h) * u;
   };

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
+#include "engine/math/varying.hpp"
 
 #include <string_view>
 
@@ -11,8 +12,8 @@ namespace tumble {
 /// force: the impulse is that of v exp(-c h), so any rate is stable.
 struct LinearDragDef {
   static constexpr std::string_view type_name = "linear_drag";
-  double rate = 0.1;          ///< [1/s]
-  double angular_rate = 0.1;  ///< [1/s]
+  Varying rate = 0.1;          ///< [1/s]
+  Varying angular_rate = 0.1;  ///< [1/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -28,9 +29,9 @@ struct LinearDragDef {
 /// that of du/dt = -k |u| u, so that it never overshoots. Torque -1/2 rho Cd r^5 |omega| omega.
 struct QuadraticDragDef {
   static constexpr std::string_view type_name = "quadratic_drag";
-  double fluid_density = 1.2;  ///< [kg/m3]
-  double coefficient = 0.47;   ///< Cd [-]
-  Vec3 wind = Vec3::Zero();    ///< velocity of the fluid [m/s]
+  Varying fluid_density = 1.2;  ///< [kg/m3]
+  double coefficient = 0.47;    ///< Cd [-]
+  VaryingVec3 wind;             ///< velocity of the fluid [m/s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

@@ -3,6 +3,7 @@
 #include "engine/dynamics/bodies/point_mass.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
 #include "engine/dynamics/forces/tolerances.hpp"
+#include "engine/math/varying.hpp"
 
 #include <string>
 #include <string_view>

@@ -27,14 +27,48 @@ struct RangeCheck {
   }
   void field(int value, const Parameter& p) { field(double(value), p); }
   void field(uint64_t, const Parameter&) {}
+  void field(bool, const Parameter&) {}
   void field(Truncation, const Parameter&) {}
   void field(const std::vector<double>&, const Parameter&) {}  // fault() looks at them
+  void field(const Varying& number, const Parameter& p) { field(number.value, p); }
+  void field(const VaryingVec3& vector, const Parameter& p) { field(vector.now(), p); }
   void field(const Vec3& value, const Parameter& p) {
     if (!value.allFinite() && !fault)
       fault = Error{ErrorCode::invalid_argument,
                     fmt::format("{} is not finite", p.name),
                     std::string(force),
                     {}};
+  }
+};
+
+/// Visits the declared parameters, and says whether any follows a course.
+struct CourseSearch {
+  bool found = false;
+
+  template <class T>
+  void field(const T& value, const Parameter&) {
+    if constexpr (requires { value.varies(); }) found |= value.varies();
+  }
+};
+
+/// Likewise, whether any is something else at a time.
+struct DifferenceSearch {
+  double t;
+  bool found = false;
+
+  template <class T>
+  void field(const T& value, const Parameter&) {
+    if constexpr (requires { value.differs_at(t); }) found |= value.differs_at(t);
+  }
+};
+
+/// Puts what follows a course to a time.
+struct CourseSetter {
+  double t;
+
+  template <class T>
+  void field(T& value, const Parameter&) {
+    if constexpr (requires { value.go_to(t); }) value.go_to(t);
   }
 };
 
@@ -85,6 +119,7 @@ std::string_view type_name(const ForceDef& def) {
 Anchors anchors(const ForceDef& def) {
   if (const auto* s = std::get_if<SpringDef>(&def)) return {{s->a, s->b}, 2};
   if (const auto* m = std::get_if<MouseSpringDef>(&def)) return {{m->anchor}, 1};
+  if (const auto* l = std::get_if<LoadDef>(&def)) return {{l->anchor}, 1};
   if (const auto* m = std::get_if<SpringMeshDef>(&def); m && m->mesh)
     return {{}, 0, m->mesh->nodes};
   return {};
@@ -123,6 +158,23 @@ bool varies_in_time(const ForceDef& def) {
       def);
 }
 
+bool follows_courses(const ForceDef& def) {
+  CourseSearch search;
+  std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(search, d); }, def);
+  return search.found;
+}
+
+bool differs_at(const ForceDef& def, double t) {
+  DifferenceSearch search{t};
+  std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(search, d); }, def);
+  return search.found;
+}
+
+void go_to(ForceDef& def, double t) {
+  CourseSetter setter{t};
+  std::visit([&](auto& d) { std::decay_t<decltype(d)>::parameters(setter, d); }, def);
+}
+
 std::optional<FieldSample> sample_field(const ForceDef& def, const Vec3& x_world, double t) {
   return std::visit(
       [&]<class Def>(const Def& d) -> std::optional<FieldSample> {
@@ -136,10 +188,15 @@ std::optional<FieldSample> sample_field(const ForceDef& def, const Vec3& x_world
       def);
 }
 
-Status validate(const ForceDef& def, const ForceContext& context) {
+Status check_ranges(const ForceDef& def) {
   RangeCheck check{{}, type_name(def)};
   std::visit([&](const auto& d) { std::decay_t<decltype(d)>::parameters(check, d); }, def);
   if (check.fault) return *check.fault;
+  return {};
+}
+
+Status validate(const ForceDef& def, const ForceContext& context) {
+  if (Status fine = check_ranges(def); !fine) return fine;
   const std::string own = std::visit(
       [](const auto& d) {
         if constexpr (requires { d.fault(); })

@@ -9,7 +9,7 @@ struct PointGravityDef {
   static constexpr std::string_view type_name = "point_gravity";
   FieldTargets targets;
   Vec3 centre = Vec3::Zero();  ///< [m]
-  double mu = 1;               ///< G M [m3/s2]
+  Varying mu = 1;              ///< G M [m3/s2]
   double softening = 0;        ///< eps [m]
 
   Vec3 acceleration(const Vec3& x) const;

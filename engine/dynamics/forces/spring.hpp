@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
+#include "engine/math/varying.hpp"
 
 #include <string_view>
 
@@ -12,9 +13,9 @@ namespace tumble {
 struct SpringDef {
   static constexpr std::string_view type_name = "spring";
   Anchor a, b;
-  double stiffness = 100;   ///< [N/m]
-  double damping = 1;       ///< [N s/m]
-  double rest_length = 1;   ///< [m]
+  Varying stiffness = 100;  ///< [N/m]
+  Varying damping = 1;      ///< [N s/m]
+  Varying rest_length = 1;  ///< [m]
   double cable_radius = 0;  ///< drawn as a straight cable this thick, 0: as a coil [m]
 
   template <class Visitor, class Self>

@@ -12,7 +12,7 @@ namespace tumble {
 struct TurbulenceDef {
   static constexpr std::string_view type_name = "turbulence";
   FieldTargets targets;
-  double speed = 2;   ///< root mean square [m/s]
+  Varying speed = 2;  ///< root mean square [m/s]
   double size = 1;    ///< of the largest eddies: spacing of the lattice [m]
   int octaves = 2;    ///< sizes of eddies
   double period = 4;  ///< after it every eddy has come and gone; 0: they stay for ever [s]

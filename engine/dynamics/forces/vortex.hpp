@@ -11,9 +11,9 @@ struct VortexDef {
   FieldTargets targets;
   Vec3 centre = Vec3::Zero();  ///< a point of the axis [m]
   Vec3 axis = Vec3::UnitY();   ///< of any length but zero
-  double circulation = 10;     ///< Gamma, by the right hand about the axis [m2/s]
+  Varying circulation = 10;    ///< Gamma, by the right hand about the axis [m2/s]
   double core_radius = 0.5;    ///< a [m]
-  double strain = 0;           ///< alpha [1/s]
+  Varying strain = 0;          ///< alpha [1/s]
   FlowGrip grip;
 
   struct Flow {

@@ -10,7 +10,7 @@ struct AttractorDef {
   static constexpr std::string_view type_name = "attractor";
   FieldTargets targets;
   Vec3 centre = Vec3::Zero();  ///< [m]
-  double strength = 10;        ///< k [1/s2]
+  Varying strength = 10;       ///< k [1/s2]
   double radius = 0;           ///< R [m]
 
   Vec3 acceleration(const Vec3& x) const;
@@ -38,7 +38,7 @@ struct RepulsorDef {
   static constexpr std::string_view type_name = "repulsor";
   FieldTargets targets;
   Vec3 centre = Vec3::Zero();  ///< [m]
-  double strength = 10;        ///< k [1/s2]
+  Varying strength = 10;       ///< k [1/s2]
   double radius = 1;           ///< R [m]
 
   Vec3 acceleration(const Vec3& x) const;

@@ -13,9 +13,10 @@ constexpr std::array<double, 3> gust_weight{0.5, 0.3, 0.2};
 }  // namespace
 
 WindDef::Flow WindDef::at(double t) const {
-  Flow flow{velocity, Vec3::Zero(), gusts, t, {}, {}};
-  const double speed2 = velocity.squaredNorm();
-  if (speed2 > 0) flow.slowness = velocity / speed2;
+  const Vec3 mean = velocity.now();
+  Flow flow{mean, Vec3::Zero(), gusts, t, {}, {}};
+  const double speed2 = mean.squaredNorm();
+  if (speed2 > 0) flow.slowness = mean / speed2;
   Random random(seed, 7);
   for (size_t i = 0; i < 3; ++i) {
     flow.frequency[i] = 2 * det::pi / gust_period * gust_ratio[i];

@@ -11,10 +11,10 @@ namespace tumble {
 struct WindDef {
   static constexpr std::string_view type_name = "wind";
   FieldTargets targets;
-  Vec3 velocity{5, 0, 0};  ///< U, mean [m/s]
-  double gusts = 0;        ///< g [-]
-  double gust_period = 4;  ///< of the longest sine [s]
-  uint64_t seed = 1;       ///< of the phases of the sines
+  VaryingVec3 velocity{5, 0, 0};  ///< U, mean [m/s]
+  double gusts = 0;               ///< g [-]
+  double gust_period = 4;         ///< of the longest sine [s]
+  uint64_t seed = 1;              ///< of the phases of the sines
   FlowGrip grip;
 
   struct Flow {

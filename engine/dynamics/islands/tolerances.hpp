@@ -1,13 +1,13 @@
 #pragma once
 
-/// The numbers of this room: unit and reason.
+/// Constants of this folder, with unit and reason.
 namespace tumble::tolerances {
 
-/// Distance at which a sleeper and what comes near count as touching, of the margin within which
-/// contacts are foreseen [-]: what merely passes by wakes nobody.
+/// Gap up to which a sleeping body and one that approaches count as touching, as a share of the
+/// margin within which contacts are foreseen [-]: a body that only passes by wakes nothing.
 inline constexpr double touching_of_margin = 0.05;
-/// That margin [m], the default of RealtimeSettings::speculative_margin: who wakes does not depend
-/// on how the solver is tuned.
+/// That margin [m]: the default of RealtimeSettings::speculative_margin. A constant, so that waking
+/// does not depend on settings of the solver.
 inline constexpr double touching_margin = 0.02;
 
 }  // namespace tumble::tolerances

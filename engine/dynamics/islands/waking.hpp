@@ -6,10 +6,11 @@
 
 namespace tumble {
 
-/// Wakes a body; the bodies that it touches follow in build_islands.
+/// Wakes a body; build_islands then wakes the bodies that it touches.
 void wake(RigidBody& body);
 
-/// Wakes everything that touches `body`: before it is removed, teleported, or its velocity is set.
+/// Wakes all bodies that touch `body`: to be called before it is removed, teleported, or its
+/// velocity is set.
 void wake_touching(std::span<RigidBody> bodies, const ContactSet& contacts, uint32_t body);
 
 /// Wakes every body (gravity or another global setting changed).

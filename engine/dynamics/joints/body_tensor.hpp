@@ -7,7 +7,7 @@
 
 namespace tumble::folding {
 
-/// By motion or push of a body: linear, then angular about its centre of mass.
+/// Motion of a body or push on it: linear part, then angular part about its centre of mass.
 using Six = std::array<double, 6>;
 using Tensor = std::array<double, 36>;  ///< inertia of a body: symmetric, by column
 
@@ -35,7 +35,7 @@ inline double dot(const double* a, const double* b) {
   return sum;
 }
 
-/// to += X^T m X, of a body that moves with another one: v = v' - r x omega'.
+/// To += X^T m X, for a body that is fixed to another one, with v = v' - r x omega'.
 inline void add_moved(const Tensor& m, const Vec3& r, Tensor& to) {
   Tensor x = m;
   for (size_t i = 0; i < 6; ++i) {
@@ -53,8 +53,8 @@ inline void add_moved(const Tensor& m, const Vec3& r, Tensor& to) {
   }
 }
 
-/// The inverse of a positive definite matrix of n rows, from L D L^T. From pivots that are no more
-/// than `least` of their diagonal entry nothing follows; a bit for each.
+/// The inverse of a positive definite n x n matrix by L D L^T. Pivots of at most `least` times
+/// their diagonal entry are treated as infinite; returns a bit for each of these.
 inline uint32_t invert(size_t n, const double* m, double least, double* inverse) {
   std::array<double, most_freedoms * most_freedoms> low;
   std::array<double, most_freedoms> pivot, over;
@@ -83,7 +83,8 @@ inline uint32_t invert(size_t n, const double* m, double least, double* inverse)
   return lost;
 }
 
-/// A body's tensor. `inertia` by column, the mean of what is above the diagonal and below counts.
+/// The tensor of a body. `inertia` by column; the mean of the entries above and below the diagonal
+/// is used.
 inline void set_tensor(double mass, const double* inertia, Tensor& out) {
   out.fill(0);
   for (size_t i = 0; i < 3; ++i) {
@@ -93,13 +94,13 @@ inline void set_tensor(double mass, const double* inertia, Tensor& out) {
   }
 }
 
-/// Bodies by block: what they answer to pushes with, and its inverses where they are known.
+/// Masses of the bodies by block, with the inertias where they are known.
 struct Bodies {
   std::span<const DofBlock> blocks;
   std::span<const Mat3> inertias;
 
-  /// The tensor of a body by itself. Inverses that are not known are found by L D L^T and not by
-  /// cofactors, whose determinant would lose the square of the ratio of the moments of inertia.
+  /// The tensor of a body by itself. Unknown inertias are inverted by L D L^T and not by cofactors,
+  /// whose determinant would lose accuracy with the square of the ratio of the moments of inertia.
   void tensor(uint32_t block, Tensor& out) const {
     const DofBlock& of = blocks[block];
     if (!inertias.empty()) return set_tensor(1 / of.inverse_mass, inertias[block].data(), out);

@@ -7,12 +7,13 @@
 
 namespace tumble {
 
-/// A force along one direction that never grows with the velocity v along it: a sum of parts, each
+/// A force along one direction that never increases with the velocity v along it: the sum of parts,
+/// each
 ///   clamp(force - gain v, least, most)
-/// (dampers, capped motors, constant forces), or a step at a velocity: `most` below it, `least`
-/// above it, anything between at it (dry friction, hard limits, motors that hold a rate). Bounds
-/// may be infinite. As a set-valued map it is maximal monotone, so that every problem that solve()
-/// meets has exactly one solution.
+/// (dampers, motors of limited force, constant forces), or a step at a velocity: `most` below that
+/// velocity, `least` above it, anything between at it (dry friction, hard limits, motors that hold
+/// a rate). Bounds may be infinite. As a set-valued map of v it is maximal monotone (decreasing),
+/// so that the problem of solve() always has exactly one solution.
 class ForceLaw {
  public:
   static constexpr size_t most_parts = 8;
@@ -22,30 +23,29 @@ class ForceLaw {
   size_t add(double force, double gain, double least, double most) {
     return put({force, gain, 0, least, most, false});
   }
-  /// What is bounded on neither side holds the velocity nearest to `at` that the steps before it
-  /// allow: what goes on for ever on one side, as limits do, leaves no other.
+  /// A step that is unbounded on both sides holds the velocity nearest to `at` that the steps added
+  /// before it allow: steps that are unbounded on one side, as limits are, exclude others.
   size_t add_step(double at, double least, double most) {
     return put({0, 0, unbounded(least, most) ? allowed(at) : at, least, most, true});
   }
   size_t size() const { return count_; }
-  /// Where a step is.
+  /// The velocity at which a step lies.
   double step_at(size_t part) const { return parts_[part].at; }
 
   struct Solution {
     double v = 0;      ///< velocity with the force
-    double force = 0;  ///< sum of all parts at v
+    double force = 0;  ///< sum of all parts at velocity v
     std::array<double, most_parts> parts{};
   };
-  /// Solves v = free + compliance F(v), F this law: exactly, by its breakpoints. Where several
-  /// steps are at v they share the force in their order. Nothing moves what has no compliance:
-  /// the force is 0.
+  /// Solves v = free + compliance F(v) with this law F exactly, by its breakpoints. If several
+  /// steps lie at v they share the force in their order. With zero compliance the force is 0.
   Solution solve(double free, double compliance) const;
 
  private:
   struct Part {
     double force = 0, gain = 0, at = 0, least = 0, most = 0;
     bool step = false;
-    /// Before and after v, where it is a step.
+    /// Limits of the force from below and from above v; they differ at a step.
     double left(double v) const;
     double right(double v) const;
   };

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// C = u.w of an axis u of A and an axis w of B, world axes: zero where they are at right angles.
-/// dC/dt = (w x u).(omega_b - omega_a).
+/// C = u.w for an axis u of A and an axis w of B, world axes: zero if they are perpendicular. dC/dt
+/// = (w x u).(omega_b - omega_a).
 inline void put_dot_row(const JointSides& s, const Vec3& u, const Vec3& w, JointRow& out) {
   const Vec3 turn = w.cross(u);
   const Vec3 turn_rate = s.b.omega.cross(w).cross(u) + w.cross(s.a.omega.cross(u));
@@ -19,14 +19,15 @@ inline JointRow dot_row(const JointSides& s, const Vec3& u, const Vec3& w) {
   return out;
 }
 
-/// C = u.d with an axis u of A and d from A's anchor to B's, world axes. Besides B's anchor it
-/// moves the point of A that is under it: the arm of A's side is arm_a + d.
+/// C = u.d for an axis u of A and d from A's anchor to B's, world axes. Its force on A acts at the
+/// point of A that coincides with B's anchor: the lever arm on A is arm_a + d.
 JointRow offset_row(const JointSides& sides, const Vec3& u);
 
-/// C = the angle whose cosine and sine are proportional to the errors of two such rows, -pi .. pi.
+/// C = the angle whose cosine and sine are proportional to the errors of two dot or offset rows,
+/// -pi .. pi.
 JointRow direction_row(const JointSides& sides, const JointRow& cosine, const JointRow& sine);
 
-/// C = the distance of the anchors. Where they coincide it grows along the z axis of A's frame.
+/// C = the distance of the anchors. If they coincide, its direction is the z axis of A's frame.
 JointRow distance_row(const JointSides& sides);
 
 }  // namespace tumble

@@ -9,24 +9,24 @@
 
 namespace tumble {
 
-/// Coordinate x of joint `a` follows coordinate y of joint `b`, which may be the same joint:
+/// Coordinate x of joint `a` is coupled to coordinate y of joint `b`, which may be the same joint:
 ///   x = ratio y + offset.
-/// That is one more row, of up to four bodies: with J_x and J_y for the Jacobians of the
-/// coordinates, (J_x - ratio J_y) v = 0. A force F along x and one of -ratio F along y keep it,
-/// which do no work together. What a step reads, and the forces as its state.
+/// This is one more row, of up to four bodies: with J_x and J_y for the Jacobians of the
+/// coordinates, (J_x - ratio J_y) v = 0. Its forces are F along x and -ratio F along y, which
+/// together do no work. Holds what a step reads, and the forces, which are state.
 struct JointCoupling {
   uint32_t a = 0, b = 0;  ///< slots of the joints
-  uint32_t x = 0, y = 0;  ///< in the lists of their kinds
+  uint32_t x = 0, y = 0;  ///< indices among the coordinates of their kinds
   double ratio = 1;       ///< [-], [m/rad] or [rad/m]
   double offset = 0;      ///< [m] or [rad]
-  /// F, of the two passes of the last sub-step [N] or [N m]: see Joint::moving_force.
+  /// F in the two passes of the last sub-step [N] or [N m]: see Joint::moving_force.
   double moving_force = 0, relaxing_force = 0;
 
   double force() const { return moving_force + relaxing_force; }
   bool same(const JointCoupling& o) const { return a == o.a && b == o.b && x == o.x && y == o.y; }
 };
 
-/// Calls f(slot) for the bodies at the ends of both joints, the world left out.
+/// Calls f(slot) for the bodies of both joints, except for the world.
 template <class F>
 void for_bodies(const JointCoupling& c, std::span<const Joint> joints, const F& f) {
   for (const uint32_t joint : {c.a, c.b})
@@ -34,7 +34,7 @@ void for_bodies(const JointCoupling& c, std::span<const Joint> joints, const F& 
       if (slot != no_body) f(slot);
 }
 
-/// The first of these bodies of which moves(slot) is true; none: no_body.
+/// The first of these bodies with moves(slot); no_body if there is none.
 template <class Moves>
 uint32_t first_body(const JointCoupling& c, std::span<const Joint> joints, const Moves& moves) {
   uint32_t first = no_body;
@@ -43,7 +43,7 @@ uint32_t first_body(const JointCoupling& c, std::span<const Joint> joints, const
   });
   return first;
 }
-/// All of these bodies of which moves(slot) is true become one set.
+/// Joins all of these bodies with moves(slot) into one set.
 template <class Moves>
 void join_bodies(const JointCoupling& c, std::span<const Joint> joints, const Moves& moves,
                  DisjointSets& sets) {
@@ -53,17 +53,17 @@ void join_bodies(const JointCoupling& c, std::span<const Joint> joints, const Mo
   });
 }
 
-/// A coordinate that is looked at again and again, from one moment to a near one: full turns are
-/// counted by the mean of the rates at both.
+/// A coordinate that is evaluated repeatedly at times near each other: full turns are counted by
+/// the mean of the rates at two successive times.
 struct FollowedCoordinate {
-  double value = 0, rate = 0;  ///< when it was looked at last
-  double t = 0;                ///< then [s]
+  double value = 0, rate = 0;  ///< at the last evaluation
+  double t = 0;                ///< time of the last evaluation [s]
 
-  /// The coordinate's row now, its error counted over full turns.
+  /// The coordinate's row now, with full turns in its error.
   JointRow look(const JointCoordinate& coordinate, const JointSides& sides, double now);
 };
 
-/// The row of a coupling in two halves; their errors, and their rates, add up.
+/// The row of a coupling in two halves, whose errors and rates add up.
 struct CouplingRow {
   JointRow of_x, of_y;
 
@@ -73,15 +73,15 @@ struct CouplingRow {
     return {&of_x.row.a, &of_x.row.b, &of_y.row.a, &of_y.row.b};
   }
 };
-/// From the rows of both coordinates, errors counted over full turns.
+/// From the rows of both coordinates, with full turns in their errors.
 CouplingRow coupling_row(const JointCoupling& coupling, const JointRow& x, const JointRow& y);
 
-/// Joints and what couples them, by slot or index.
+/// Joints and couplings, by slot or index.
 struct JointsAndCouplings {
   std::span<const Joint> joints;
   std::span<const JointCoupling> couplings = {};
 };
-/// Some of them.
+/// A selection of them.
 struct JointChoice {
   std::span<const uint32_t> joints;
   std::span<const uint32_t> couplings = {};

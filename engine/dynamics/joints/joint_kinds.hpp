@@ -8,18 +8,18 @@
 
 namespace tumble {
 
-/// Which relative motion a joint leaves (Coutinho 2013 §5.3). The order is that of
-/// all_joint_kinds() and of the bytes in snapshots.
+/// Kinds of joints, by the relative motion that they leave (Coutinho 2013 §5.3). The order is that
+/// of all_joint_kinds() and of numbers in snapshots.
 enum class JointKind : uint8_t {
   spherical,    ///< all rotation about the anchor
-  universal,    ///< rotation about z of A's frame and about x of B's, which stay at right angles
+  universal,    ///< rotation about z of A's frame and about x of B's, which stay perpendicular
   revolute,     ///< rotation about the z axis
   cylindrical,  ///< rotation about the z axis and sliding along it
   prismatic,    ///< sliding along the z axis of A's frame
   rigid,        ///< nothing
-  distance,     ///< everything but the distance of the anchors
-  planar,       ///< sliding across the z axis of A's frame and rotation about it
-  free,         ///< everything; what acts, acts along the distance of the anchors
+  distance,     ///< everything that keeps the distance of the anchors
+  planar,       ///< sliding perpendicular to the z axis of A's frame, and rotation about it
+  free,         ///< everything; forces act along the distance of the anchors
 };
 
 /// A kind of joint, made of parts.
@@ -27,9 +27,9 @@ struct JointKindEntry {
   std::string_view name;
   JointKind kind;
   std::vector<JointPart> parts;
-  /// What remains free and has a name; with the parts' rows at most JointRows::most.
+  /// The motions that remain free; with the rows of the parts at most JointRows::most.
   std::vector<JointCoordinate> coordinates;
-  bool uses_axes = true;  ///< false: the parts only ask for the anchors
+  bool uses_axes = true;  ///< false: the parts need only the anchors
   std::string_view doc;   ///< for lists of choices
 
   bool counts_turns() const {
@@ -43,7 +43,7 @@ inline const JointKindEntry& entry_of(JointKind kind) {
   return all_joint_kinds()[size_t(kind)];
 }
 
-/// The number of a coordinate by its name; none: coordinates.size().
+/// Index of a coordinate by its name; coordinates.size() if there is none.
 size_t coordinate_named(JointKind kind, std::string_view name);
 
 }  // namespace tumble

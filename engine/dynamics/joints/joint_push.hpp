@@ -3,12 +3,13 @@
 
 namespace tumble {
 
-/// What a joint did to its bodies over a tick, or a part of it, world axes.
+/// Impulses of a joint on its bodies over a tick, or a part of it, world axes.
 struct JointPush {
-  Vec3 impulse = Vec3::Zero();   ///< on B; minus it on A [N s]
-  Vec3 moment_a = Vec3::Zero();  ///< on A, about its centre [N m s]
+  Vec3 impulse = Vec3::Zero();   ///< on B; the negative on A [N s]
+  Vec3 moment_a = Vec3::Zero();  ///< angular impulse on A, about its centre of mass [N m s]
   Vec3 moment_b = Vec3::Zero();  ///< on B, likewise
-  /// Work of what acts along the coordinates, contained in that of the above [J].
+  /// Work of motors, dry friction and limits along the coordinates, included in the work of the
+  /// above [J].
   double motors = 0, friction = 0, limits = 0;
 
   void add(const JointPush& p) {

@@ -1,44 +1,46 @@
 #pragma once
 
-/// The numbers of this room: unit and reason.
+/// Constants of this folder, with unit and reason.
 namespace tumble::tolerances {
 
-/// What joints leave of a row's answer to its own push may be rounding, relative to that of free
-/// bodies: the row is then as good as fixed [-].
+/// Response of a row to its own push under the joints, relative to that of free bodies, below which
+/// it is rounding error and the row counts as fixed [-].
 inline constexpr double locked_share = 1e-11;
-/// What one solution leaves of the rows' accelerations or velocities is rounding, relative to the
-/// greatest that it was to change: a few hundred roundings [-].
+/// Remaining error of the rows' accelerations or velocities after one solution, relative to the
+/// greatest wanted change, that is rounding error: a few hundred times that of a double [-].
 inline constexpr double solved_share = 1e-13;
-/// A row's velocity is held, relative to the velocities that cancel in it [-].
+/// Error of a row's velocity, relative to the velocities that cancel in it, at which it counts as
+/// held [-].
 inline constexpr double held_share = 1e-14;
-/// Length of a quaternion below which it names no rotation [-].
+/// Length of a quaternion below which its rotation is undefined [-].
 inline constexpr double no_rotation_length = 1e-12;
 
-/// What reactions of joints with dependent rows leave of the pushes on bodies is rounding below
-/// this, relative to the greatest push that a single row makes [-].
+/// Error of the pushes on bodies by reactions of joints with dependent rows that is rounding error,
+/// relative to the greatest push of a single row [-].
 inline constexpr double reaction_rounding = 1e-14;
-/// More than this, likewise, and bodies would move otherwise: the reactions stay what they were
-/// [-].
+/// If the error is more than this, likewise, bodies would move differently, and the reactions stay
+/// what they were [-].
 inline constexpr double reaction_left = 1e-10;
-/// The normal equations of such reactions have the square of the rows' condition: so many solves
-/// bring what they leave to rounding [-].
+/// The normal equations for such reactions have the square of the rows' condition number: this many
+/// solutions reduce the error to rounding [-].
 inline constexpr int most_reaction_passes = 4;
 
-/// How much greater the greatest moment of inertia of a body may be than the least for its joint to
-/// be folded into it: the tensor's last digits are then small beside the least [-].
+/// Greatest ratio of moments of inertia of a body at which its joint can be folded: rounding of the
+/// tensor is then small compared with the least moment [-].
 inline constexpr double most_moment_ratio = 1e6;
-/// What is left of a pivot of a tensor of inertia is rounding, relative to what it was [-].
+/// Remainder of a pivot of a tensor of inertia, relative to its original value, that is rounding
+/// error [-].
 inline constexpr double no_pivot = 1e-14;
-/// A row along a coordinate that others of its joint hold has as little left, likewise [-].
+/// The same for a row along a coordinate that other rows of its joint hold already [-].
 inline constexpr double no_drive = 1e-9;
 
-/// Work of a joint of a folded tree, to factor and to solve [products].
+/// Work of a joint of a folded tree, to factor and to solve [multiply-adds].
 inline constexpr unsigned folded_factor_price = 400, folded_solve_price = 100;
 
-/// Sine of the angle between two axes below which no direction is across both of them: a thousand
-/// million roundings [-].
+/// Sine of the angle between two axes below which no direction perpendicular to both is defined: a
+/// thousand million times the rounding error [-].
 inline constexpr double parallel_axes = 1e-7;
-/// 1 + the cosine of such an angle, where the axes are opposite: the square of the same [-].
+/// 1 + the cosine of the angle between axes that are opposite: the square of the same [-].
 inline constexpr double opposite_axes = 1e-14;
 
 }  // namespace tumble::tolerances

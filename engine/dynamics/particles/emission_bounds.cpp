@@ -29,7 +29,8 @@ class Births {
     double sum = 0;
     if (d.rate > 0) {
       const double span = std::min(window, d.end - d.start);
-      sum = span < without_end ? std::floor(d.rate * span) + 1 : without_end;
+      sum = span < without_end ? std::floor(d.rate * d.over_time.rate.most() * span) + 1
+                               : without_end;
     }
     for (const Burst& b : d.bursts) {
       double times = b.times;
@@ -41,24 +42,27 @@ class Births {
 
   /// What the particles of `parent` give birth to by one of its rules.
   double by_event(size_t parent, const SpawnRule& r, double window) const {
-    const RandomNumber& life = emitters_[parent].def->life;
+    const EmitterDef& d = *emitters_[parent].def;
+    const double longest = d.most_life();
     switch (r.on) {
       case SpawnRule::On::birth:
         return r.count * within(parent, window);
       case SpawnRule::On::death: {
-        const double later = std::isfinite(life.mean) ? life.most() - life.least() : without_end;
+        const double later = std::isfinite(longest) ? longest - d.least_life() : without_end;
         return r.count * within(parent, window + later);
       }
       case SpawnRule::On::life: {
-        const double lived = std::min(window, life.most());
+        const double lived = std::min(window, longest);
         const double each = r.rate > 0 ? std::floor(r.rate * lived) + 1 : 0;
-        return each > 0 ? each * within(parent, window + life.most()) : 0;
+        return each > 0 ? each * within(parent, window + longest) : 0;
       }
       case SpawnRule::On::collision: {
-        const double parents = within(parent, window + life.most());
+        const double parents = within(parent, window + longest);
         if (parents == 0) return 0;
         return r.dies ? r.count * parents : without_end;
       }
+      case SpawnRule::On::sink:
+        return r.count * within(parent, window + longest);
     }
     return without_end;
   }
@@ -73,7 +77,7 @@ std::vector<double> most_alive(std::span<const NamedEmitter> emitters, double h)
   std::vector<double> out;
   for (size_t e = 0; e < emitters.size(); ++e) {
     const EmitterDef& d = *emitters[e].def;
-    const double most = births.within(e, d.life.most() + h);
+    const double most = births.within(e, d.most_life() + h);
     out.push_back(d.at_most == ~uint64_t{0} ? most : std::min(most, double(d.at_most)));
   }
   return out;

@@ -58,6 +58,41 @@ std::string schedule_fault(const EmitterDef& d) {
   return {};
 }
 
+std::string curve_fault(const FactorCurve& curve) {
+  if (curve.points.size() > most_curve_values)
+    return fmt::format("at most {} values over time", most_curve_values);
+  for (size_t i = 0; i < curve.points.size(); ++i) {
+    if (!std::isfinite(curve.points[i].time) || !std::isfinite(curve.points[i].value))
+      return "a value over time is not finite";
+    if (i > 0 && !(curve.points[i].time > curve.points[i - 1].time))
+      return fmt::format("times must ascend, got {} s after {} s", curve.points[i].time,
+                         curve.points[i - 1].time);
+  }
+  return {};
+}
+
+std::string course_fault(const EmitterDef& d) {
+  std::string fault;
+  EmissionCourse::for_factors(d.over_time, [&fault](const FactorCurve& curve) {
+    if (fault.empty()) fault = curve_fault(curve);
+  });
+  if (!fault.empty()) return fault;
+  const EmissionCourse& c = d.over_time;
+  for (const auto& [name, curve] : {std::pair{"rate", &c.rate}, {"spread", &c.spread}})
+    if (curve->least() < 0)
+      return fmt::format("factors of {} must be >= 0, got {}", name, curve->least());
+  for (const auto& [name, curve] :
+       {std::pair{"life", &c.life}, {"mass", &c.mass}, {"radius", &c.radius}})
+    if (!(curve->least() > 0))
+      return fmt::format("factors of {} must be > 0, got {}", name, curve->least());
+  if (d.spread * c.spread.most() > det::pi)
+    return fmt::format("spread must be at most pi, got {} rad", d.spread * c.spread.most());
+  for (size_t i = 1; i < c.colour.points.size(); ++i)
+    if (!(c.colour.points[i].time > c.colour.points[i - 1].time))
+      return "times of colours must ascend";
+  return {};
+}
+
 std::string value_fault(const EmitterDef& d) {
   if (!d.pose.x.allFinite() || !d.pose.q.coeffs().allFinite()) return "pose is not finite";
   if (!(d.spread >= 0 && d.spread <= det::pi))
@@ -70,17 +105,20 @@ std::string value_fault(const EmitterDef& d) {
     if (!fault.empty()) return fault;
   for (const RandomNumber* n : {&d.speed, &d.spin, &d.mass, &d.radius})
     if (!std::isfinite(n->mean)) return "speed, spin, mass and radius must be finite";
-  if (std::max({d.size_over_life.size(), d.colour_over_life.size(), d.opacity_over_life.size()}) >
-      most_curve_values)
+  if (std::max({d.size_over_life.size(), d.mass_over_life.size(), d.colour_over_life.size(),
+                d.opacity_over_life.size()}) > most_curve_values)
     return fmt::format("at most {} values over a life", most_curve_values);
-  for (const double f : d.size_over_life)
-    if (!(f > 0 && std::isfinite(f)))
-      return fmt::format("factors of the size must be > 0, got {}", f);
+  for (const auto& [name, factors] :
+       {std::pair{"size", &d.size_over_life}, {"mass", &d.mass_over_life}})
+    for (const double f : *factors)
+      if (!(f > 0 && std::isfinite(f)))
+        return fmt::format("factors of the {} must be > 0, got {}", name, f);
   for (const double f : d.opacity_over_life)
     if (!(f >= 0 && f <= 1))
       return fmt::format("factors of the opacity must be in 0..1, got {}", f);
   const bool lasting = !std::isfinite(d.life.mean);
-  if (lasting && d.changes()) return "size, colour and opacity over a life need a life that ends";
+  if (lasting && d.changes())
+    return "size, mass, colour and opacity over a life need a life that ends";
   return {};
 }
 
@@ -99,14 +137,22 @@ std::string content_fault(const EmitterDef& d) {
   const bool bodies = d.particles.is_null();
   if (bodies != bool(d.body)) return "an emitter has either particles or a body";
   if (!bodies) return {};
-  if (!d.events.empty()) return "only particles have events";
   if (d.changes()) return "only particles change over their life";
   return {};
 }
 
 /// Whether rate and bursts go on for ever.
 bool endless(const EmitterDef& d) {
-  return d.rate > 0 && !std::isfinite(d.end) && d.count == ~uint64_t{0};
+  const FactorCurve& factor = d.over_time.rate;
+  const bool ends = std::isfinite(d.end) || (!factor.empty() && factor.points.back().value == 0);
+  return d.rate > 0 && !ends && d.count == ~uint64_t{0};
+}
+
+/// When the rate makes number k, counted from 1.
+double time_by_rate(const EmitterDef& d, uint64_t k) {
+  const double share = double(k) / d.rate;
+  return d.over_time.rate.empty() ? d.start + share
+                                  : d.over_time.rate.time_of_integral(d.start, share);
 }
 
 template <class T, class Scalar>
@@ -118,19 +164,34 @@ T between(std::span<const T> values, double u, Scalar) {
   return T((1 - w) * values[i] + w * values[i + 1]);
 }
 
-EmissionPoint drawn_point(const Emitter& e, const EmissionPlace& place, Random& random,
+EmissionPoint drawn_point(const Emitter& e, const EmissionPlace& place, double time, Random& random,
                           Vec3& direction) {
   const EmissionPoint at = e.shape->draw(random);
   const Vec3 axis = e.def->outward ? at.outward : Vec3::UnitY();
-  direction = place.frame.direction(direction_in_cone(random, axis, det::cos(e.def->spread)));
+  const double spread = e.def->spread * e.def->over_time.spread.at(time);
+  direction = place.frame.direction(direction_in_cone(random, axis, det::cos(spread)));
   return at;
+}
+
+/// One of the colours, or that of the time; `own` where there is neither.
+Vec3f drawn_colour(const EmitterDef& d, double time, Random& random, const Vec3f& own) {
+  const Vec3f drawn = d.colours.empty() ? own : d.colours[random.below(uint32_t(d.colours.size()))];
+  return d.over_time.colour.at(time, drawn);
+}
+
+/// About any axis, besides the turning of what it comes from.
+Vec3 drawn_spin(const EmitterDef& d, const EmissionPlace& place, double time, Random& random) {
+  Vec3 out = d.inherit * place.omega;
+  if (const double spin = d.spin.draw(random) * d.over_time.spin.at(time); spin != 0)
+    out += spin * random_unit_vector(random);
+  return out;
 }
 
 }  // namespace
 
 Status validate(const EmitterDef& def) {
-  for (const std::string& fault :
-       {content_fault(def), schedule_fault(def), value_fault(def), event_fault(def)})
+  for (const std::string& fault : {content_fault(def), schedule_fault(def), value_fault(def),
+                                   course_fault(def), event_fault(def)})
     if (!fault.empty()) return emitter_error(def, fault);
   if (endless(def) && !std::isfinite(def.life.mean) && def.at_most == ~uint64_t{0})
     return emitter_error(def, "it makes more and more, without end",
@@ -141,7 +202,9 @@ Status validate(const EmitterDef& def) {
 }
 
 uint64_t count_by_rate(const EmitterDef& def, double time) {
-  return whole(def.rate * (std::min(time, def.end) - def.start));
+  const double until = std::min(time, def.end);
+  if (def.over_time.rate.empty()) return whole(def.rate * (until - def.start));
+  return until > def.start ? whole(def.rate * def.over_time.rate.integral(def.start, until)) : 0;
 }
 
 uint64_t bursts_by(const Burst& burst, double time) {
@@ -162,7 +225,7 @@ void take_due(Emitter& e, double time, std::vector<double>& births) {
   };
   const uint64_t by_now = count_by_rate(d, time);
   for (uint64_t k = count_by_rate(d, e.emitted_to) + 1; k <= by_now && taken < room; ++k)
-    add(d.start + double(k) / d.rate);
+    add(time_by_rate(d, k));
   for (const Burst& b : d.bursts) {
     const uint64_t so_far = bursts_by(b, time);
     for (uint64_t k = bursts_by(b, e.emitted_to); k < so_far; ++k)
@@ -189,37 +252,38 @@ Vec3f over_life(std::span<const Vec3f> values, double u) {
   return between(values, u, float{});
 }
 
-ParticleDef next_particle(Emitter& e, const EmissionPlace& place) {
+ParticleDef next_particle(Emitter& e, const EmissionPlace& place, double time) {
   const EmitterDef& d = *e.def;
   Random random = numbered_random(d.seed, e.made++);
   ParticleDef out;
   Vec3 direction;
-  out.x = place.frame.point(drawn_point(e, place, random, direction).x);
-  out.v = d.speed.draw(random) * direction + d.inherit * place.velocity_at(out.x);
-  out.life = d.life.draw(random);
-  out.mass = d.mass.draw(random);
-  out.radius = d.radius.draw(random);
-  if (!d.colours.empty()) out.colour = d.colours[random.below(uint32_t(d.colours.size()))];
+  const EmissionCourse& course = d.over_time;
+  out.x = place.frame.point(drawn_point(e, place, time, random, direction).x);
+  out.v = d.speed.draw(random) * course.speed.at(time) * direction +
+          d.inherit * place.velocity_at(out.x);
+  out.life = d.life.draw(random) * course.life.at(time);
+  out.mass = d.mass.draw(random) * course.mass.at(time);
+  out.radius = d.radius.draw(random) * course.radius.at(time);
+  out.colour = drawn_colour(d, time, random, out.colour);
+  out.spin = drawn_spin(d, place, time, random);
   return out;
 }
 
-EmittedBody next_body(Emitter& e, const EmissionPlace& place) {
+EmittedBody next_body(Emitter& e, const EmissionPlace& place, double time) {
   const EmitterDef& d = *e.def;
   const uint64_t number = e.made++;
   Random random = numbered_random(d.seed, number);
   EmittedBody out{*d.body};
   Vec3 direction;
   out.def.name = fmt::format("{}[{}]", d.name, number);
-  out.def.pose.x = place.frame.point(drawn_point(e, place, random, direction).x);
-  out.def.velocity =
-      d.speed.draw(random) * direction + d.inherit * place.velocity_at(out.def.pose.x);
-  out.life = d.life.draw(random);
+  out.def.pose.x = place.frame.point(drawn_point(e, place, time, random, direction).x);
+  out.def.velocity = d.speed.draw(random) * d.over_time.speed.at(time) * direction +
+                     d.inherit * place.velocity_at(out.def.pose.x);
+  out.life = d.life.draw(random) * d.over_time.life.at(time);
   const Quat turn = d.any_orientation ? random_orientation(random) : place.frame.q;
   out.def.pose.q = (turn * d.body->pose.q).normalized();
-  out.def.angular_velocity = d.inherit * place.omega;
-  if (const double spin = d.spin.draw(random); spin != 0)
-    out.def.angular_velocity += spin * random_unit_vector(random);
-  if (!d.colours.empty()) out.def.look.colour = d.colours[random.below(uint32_t(d.colours.size()))];
+  out.def.angular_velocity = drawn_spin(d, place, time, random);
+  out.def.look.colour = drawn_colour(d, time, random, out.def.look.colour);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "engine/dynamics/particles/emission_shape.hpp"
 #include "engine/dynamics/particles/particle_system.hpp"
 #include "engine/dynamics/particles/random_values.hpp"
+#include "engine/dynamics/particles/time_curve.hpp"
 
 #include <limits>
 #include <memory>
@@ -20,20 +21,35 @@ struct Burst {
   double every = 1;  ///< between one and the next [s]
 };
 
-/// What the particles of an emitter give birth to: at an event `count` of another emitter come from
-/// where the particle is, and may inherit its velocity.
+/// What the particles or bodies of an emitter give birth to: at an event `count` of another emitter
+/// come from where it is, and may inherit its velocity.
 struct SpawnRule {
   enum class On : uint8_t {
     birth,
     life,       ///< all the time that it lives, `rate` a second
     death,      ///< at the end of its life, or in a collision that it dies of; not in a sink
-    collision,  ///< with a body or another particle
+    collision,  ///< of a particle with a body or another particle; of a body with another body
+    sink,       ///< a sink takes it
   };
   On on = On::death;
   EmitterId emitter;  ///< null: none
   int count = 1;
   double rate = 0;    ///< [1/s]
   bool dies = false;  ///< of the collision
+};
+
+/// What changes of an emitter with the time since it was made, for those that are born then.
+struct EmissionCourse {
+  FactorCurve rate, speed, spread, life, mass, radius, spin;
+  TimeCurve<Vec3f> colour;  ///< in place of `colours`
+
+  /// Calls f for every curve of factors.
+  template <class Self, class F>
+  static void for_factors(Self& self, const F& f) {
+    for (auto* curve :
+         {&self.rate, &self.speed, &self.spread, &self.life, &self.mass, &self.radius, &self.spin})
+      f(*curve);
+  }
 };
 
 /// Emits particles into a system, or copies of a body into the world.
@@ -68,15 +84,21 @@ struct EmitterDef {
   /// Over the life of a particle, evenly spaced from its birth to its death: factors of the radius,
   /// and colours in place of those above. Empty: as at birth.
   std::vector<double> size_over_life;
+  /// Factors of the mass; what is lost of it leaves with the particle's velocity.
+  std::vector<double> mass_over_life;
   std::vector<Vec3f> colour_over_life;
   std::vector<double> opacity_over_life;  ///< factors of the look's opacity, 0..1; empty: 1
   bool changes() const {
-    return !(size_over_life.empty() && colour_over_life.empty() && opacity_over_life.empty());
+    return !(size_over_life.empty() && mass_over_life.empty() && colour_over_life.empty() &&
+             opacity_over_life.empty());
   }
+  EmissionCourse over_time;
+  double least_life() const { return life.least() * over_time.life.least(); }
+  double most_life() const { return life.most() * over_time.life.most(); }
   bool any_orientation = false;  ///< of bodies: all as likely, not the template's in the frame
-  RandomNumber spin;             ///< of bodies, about any axis [rad/s]
+  RandomNumber spin;             ///< of bodies and grains, about any axis [rad/s]
 
-  std::vector<SpawnRule> events;  ///< of particles
+  std::vector<SpawnRule> events;
   uint64_t seed = 1;
 };
 
@@ -96,11 +118,21 @@ struct Emitter {
   struct OwnBody {
     BodyId id;
     double dies = EmitterDef::for_ever;  ///< [s], of the world's time
+    double born = 0;                     ///< likewise
+    std::vector<BodyId> touching{};      ///< what it touched in the last tick, ascending
   };
   std::vector<OwnBody> bodies;  ///< alive, in the order of their birth
+
+  /// Births that an event asked for, and that are still to come.
+  struct Asked {
+    Vec3 x = Vec3::Zero(), v = Vec3::Zero();  ///< of the one that asks, then [m], [m/s]
+    double time = 0;                          ///< [s], of the world's time
+    int count = 1;
+  };
+  std::vector<Asked> asked;
 };
 
-/// How many the rate has made by a time since the beginning [s]: the whole part of rate times time.
+/// How many the rate has made by a time since the beginning [s]: the whole part of its integral.
 /// Within rounding of a whole number it is that.
 uint64_t count_by_rate(const EmitterDef& def, double time);
 /// How often a burst has been by a time since the beginning [s].
@@ -120,14 +152,14 @@ struct EmissionPlace {
   Vec3 velocity_at(const Vec3& x) const { return v + omega.cross(x - centre); }
 };
 
-/// The next particle, as it is at its birth.
-ParticleDef next_particle(Emitter& emitter, const EmissionPlace& place);
+/// The next particle, as it is at its birth, so long after the emitter was made [s].
+ParticleDef next_particle(Emitter& emitter, const EmissionPlace& place, double time = 0);
 /// The next body, and how long it lives [s].
 struct EmittedBody {
   BodyDef def;
   double life = EmitterDef::for_ever;
 };
-EmittedBody next_body(Emitter& emitter, const EmissionPlace& place);
+EmittedBody next_body(Emitter& emitter, const EmissionPlace& place, double time = 0);
 
 /// Value at a share u in 0..1 of a life, of values evenly spaced over it; linear in between.
 double over_life(std::span<const double> values, double u);

@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-double quantity_of(const ParticleSystem& p, size_t i) {
-  switch (p.look.colour_by) {
+double quantity_of(const ParticleSystem& p, ParticleQuantity quantity, size_t i) {
+  switch (quantity) {
     case ParticleQuantity::none:
       return 0;
     case ParticleQuantity::speed:
@@ -60,6 +60,8 @@ Status validate(const ParticleLook& look, bool fluid) {
                  "give the smaller value first");
   if (!(look.clarity >= 0) || !std::isfinite(look.clarity))
     return fault(fmt::format("clarity must be >= 0, got {} m", look.clarity), "");
+  if (!(look.trail >= 0) || !std::isfinite(look.trail))
+    return fault(fmt::format("trail must be >= 0, got {} s", look.trail), "");
   for (const auto& [name, share] : {std::pair{"foam", look.foam}, {"opacity", look.opacity}})
     if (!(share >= 0 && share <= 1))
       return fault(fmt::format("{} must be in 0..1, got {}", name, share), "");
@@ -71,7 +73,7 @@ void save(ByteWriter& out, const ParticleLook& look) {
   out.value(uint8_t(look.colour_by));
   out.value(look.low);
   out.value(look.high);
-  for (const double value : {look.clarity, look.foam, look.opacity}) out.value(value);
+  for (const double value : {look.clarity, look.foam, look.opacity, look.trail}) out.value(value);
 }
 
 ParticleLook load_particle_look(ByteReader& in) {
@@ -80,22 +82,23 @@ ParticleLook load_particle_look(ByteReader& in) {
   look.colour_by = ParticleQuantity(in.get<uint8_t>());
   in.value(look.low);
   in.value(look.high);
-  for (double* value : {&look.clarity, &look.foam, &look.opacity}) in.value(*value);
+  for (double* value : {&look.clarity, &look.foam, &look.opacity, &look.trail}) in.value(*value);
   if (look.style > ParticleStyle::smoke || look.colour_by > ParticleQuantity::pressure) in.fail();
   return look;
 }
 
-void quantity_values(const ParticleSystem& p, std::vector<float>& out) {
+void quantity_values(const ParticleSystem& p, ParticleQuantity quantity, std::vector<float>& out) {
   out.clear();
-  if (p.look.colour_by == ParticleQuantity::none) return;
+  if (quantity == ParticleQuantity::none) return;
   out.reserve(p.x.capacity());
-  for (size_t i = 0; i < p.size(); ++i) out.push_back(float(quantity_of(p, i)));
+  for (size_t i = 0; i < p.size(); ++i) out.push_back(float(quantity_of(p, quantity, i)));
 }
 
 void note_quantity(ParticleSystem& p) {
   if (!p.look.finds_range()) return;
   for (size_t i = 0; i < p.size(); ++i)
-    if (const double value = quantity_of(p, i); std::isfinite(value)) p.seen.include(value);
+    if (const double value = quantity_of(p, p.look.colour_by, i); std::isfinite(value))
+      p.seen.include(value);
 }
 
 }  // namespace tumble

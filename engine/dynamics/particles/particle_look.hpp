@@ -38,6 +38,7 @@ struct ParticleLook {
   double clarity = 0;
   double foam = 1;       ///< of a surface: how white broken liquid is, 0..1
   double opacity = 0.4;  ///< of smoke, in the middle of a puff, 0..1
+  double trail = 0;      ///< length of the path that is drawn behind each; 0: none [s]
 
   bool finds_range() const { return colour_by != ParticleQuantity::none && low == high; }
 };
@@ -67,8 +68,9 @@ void save(ByteWriter& out, const ParticleLook& look);
 ParticleLook load_particle_look(ByteReader& in);
 
 struct ParticleSystem;
-/// The quantity of every particle, over what `out` held; empty for `none`.
-void quantity_values(const ParticleSystem& particles, std::vector<float>& out);
+/// A quantity of every particle, over what `out` held; empty for `none`.
+void quantity_values(const ParticleSystem& particles, ParticleQuantity quantity,
+                     std::vector<float>& out);
 /// ParticleSystem::seen takes in the present values, where the look asks for that.
 void note_quantity(ParticleSystem& particles);
 

@@ -23,6 +23,7 @@ void for_arrays(System& p, const F& f) {
   f(p.age);
   f(p.life);
   f(p.born_radius);
+  f(p.born_mass);
   f(p.emitter);
   f(p.id);
   f(p.pressure);
@@ -44,12 +45,13 @@ void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
   age.push_back(years);
   life.push_back(def.life);
   born_radius.push_back(def.radius);
+  born_mass.push_back(def.mass);
   emitter.push_back(from);
   id.push_back(next_id++);
   pressure.push_back(0);
   if (fluid) density.push_back(fluid->density);
   if (!grains) return;
-  spin.push_back(Vec3::Zero());
+  spin.push_back(def.spin);
   rest.emplace_back();
 }
 
@@ -66,6 +68,7 @@ void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
       from.emitter[i], from.age[i]);
   force.back() = from.force[i];
   born_radius.back() = from.born_radius[i];
+  born_mass.back() = from.born_mass[i];
   id.back() = from.id[i];
   pressure.back() = from.pressure[i];
   if (fluid && from.fluid) density.back() = from.density[i];
@@ -151,6 +154,7 @@ void ParticleSystem::save(ByteWriter& out) const {
   out.vector(age);
   out.vector(life);
   out.vector(born_radius);
+  out.vector(born_mass);
   out.vector(emitter);
   out.vector(id);
   if (fluid) {
@@ -198,6 +202,7 @@ void ParticleSystem::load(ByteReader& in) {
   in.vector(age);
   in.vector(life);
   in.vector(born_radius);
+  in.vector(born_mass);
   in.vector(emitter);
   in.vector(id);
   fluid = flows ? load_fluid(in) : nullptr;
@@ -306,6 +311,7 @@ Status validate(const ParticleSystemDef& def) {
     };
     if (!p.x.allFinite()) return fault("position is not finite");
     if (!p.v.allFinite()) return fault("velocity is not finite");
+    if (!p.spin.allFinite()) return fault("spin is not finite");
     if (!(p.mass > 0) || !std::isfinite(p.mass))
       return fault(fmt::format("mass must be > 0, got {} kg", p.mass));
     if (!(p.radius > 0) || !std::isfinite(p.radius))
@@ -369,7 +375,7 @@ void take_values(ParticleSystem& out, const ParticleSystemDef& def) {
   for (size_t i = 0; i < out.size() && out.id[i] <= def.particles.size(); ++i) {
     if (!out.emitter[i].is_null()) continue;
     const ParticleDef& p = def.particles[out.id[i] - 1];
-    out.mass[i] = p.mass;
+    out.mass[i] = out.born_mass[i] = p.mass;
     out.radius[i] = out.born_radius[i] = p.radius;
     out.colour[i] = p.colour;
     out.life[i] = p.life;

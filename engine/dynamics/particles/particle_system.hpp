@@ -30,6 +30,7 @@ struct ParticleDef {
   double radius = 0.02;   ///< [m]
   Vec3f colour{0.9f, 0.6f, 0.2f};
   double life = std::numeric_limits<double>::infinity();  ///< [s]
+  Vec3 spin = Vec3::Zero();                               ///< of grains [rad/s]
 };
 
 inline constexpr int most_grain_substeps = 1000;
@@ -124,6 +125,7 @@ struct ParticleSystem {
   std::vector<double> age;          ///< [s]
   std::vector<double> life;         ///< the age at which it dies, may be infinite [s]
   std::vector<double> born_radius;  ///< the radius that it had at birth [m]
+  std::vector<double> born_mass;    ///< likewise [kg]
   std::vector<EmitterId> emitter;   ///< that it is from, null for none
   std::vector<uint64_t> id;         ///< never reused; ascending
   std::vector<double> pressure;     ///< of fluids, at the end of the last tick [Pa]

@@ -15,7 +15,7 @@ bool any_drive(const SolverIsland& island, const F& is) {
   });
 }
 
-/// f(block) of joints and of couplings.
+/// Calls f(block) for all joints and couplings.
 template <class F>
 void for_blocks(const SolverIsland& island, const F& f) {
   for (JointBlock& joint : island.joints) f(joint);
@@ -23,7 +23,7 @@ void for_blocks(const SolverIsland& island, const F& f) {
     for (CouplingBlock& c : coupled.couplings) f(c);
 }
 
-/// f(point, its normal speed) of those that bounce.
+/// Calls f(point, its normal speed) for the points that bounce.
 template <class F>
 void for_bouncing(const SolverIsland& island, const F& f) {
   for (const ContactRow& row : island.rows)

@@ -4,58 +4,60 @@
 
 namespace tumble {
 
-// What blows need beyond the passes of a sub-step, of contacts with restitution and of limits of
-// joints that bounce. A blow goes through the whole mechanism, is no guess for the next sub-step,
-// and gives back no more energy than was taken.
+// Impacts ("blows") beyond the passes of a sub-step: at contacts with restitution and at joint
+// limits that bounce. An impact spreads through the whole mechanism, is no warm start for the next
+// sub-step, and gives back no more energy than was taken.
 
 // Limits.
 
-/// Whether a limit that bounces may be met: the moving pass is solved without such limits first.
+/// Whether a bouncing limit may be reached in this sub-step; then the moving pass is solved without
+/// such limits first.
 bool nears_limit(const SolverIsland& island);
-/// These limits take part from here on.
+/// Includes these limits in the force laws from here on.
 void put_limits(const SolverIsland& island, double hs);
-/// The greatest change of a blow on a limit since this was asked last, as a share of it; 0 when
-/// none bounces.
+/// The greatest change of a limit's impulse of impact since the last call, as a share of that
+/// impulse; 0 if none bounces.
 double blow_change(const SolverIsland& island);
 
-// Impulses of a sub-step in which there was a blow say nothing of the next one, which would give
-// it again: that one starts from those before.
+// The impulses of a sub-step with an impact would repeat it as the warm start of the next one,
+// which therefore starts from the impulses before the impact.
 
-/// Whether a limit gave back a blow in the last relaxing pass; then impulses were remembered before
-/// the limit was met.
+/// Whether a limit bounced in the last relaxing pass; remember_impulses() was then called before
+/// the limits took part.
 bool limit_bounces(const SolverIsland& island);
 void remember_impulses(const SolverIsland& island);
 void recall_impulses(const SolverIsland& island);
 
-// Energy. Of impulses P_i that act at once and change speeds along them from u_i to w_i each takes
-// -P_i (u_i + w_i) / 2 of it. Beside joints a blow gives back no more than the contacts that
-// bounce, and the joints that these shook, have taken in the tick: the approach was measured before
-// it, and in a mechanism a point may be slower when it comes to touch.
+// Energy. Of impulses P_i that act at once and change the speeds along them from u_i to w_i, each
+// takes the energy -P_i (u_i + w_i) / 2. In islands with joints an impact gives back no more than
+// was taken in the tick by the contacts that bounce, and by the joints that these shook: the
+// approach was measured at the start of the tick, and in a mechanism a point may be slower by the
+// time it touches.
 
-/// Whether a contact bounces.
+/// Whether any contact bounces.
 bool bounces(const SolverIsland& island);
-/// Before a pass whose impulses are those of its points beyond `share` of what they have now, and
-/// before a blow.
+/// Notes normal speeds, and `share` times the present normal impulses: the following pass, or an
+/// impact, is credited with what its impulses exceed that.
 void note_speeds(const SolverIsland& island, double share);
-/// What the impulses since then took [J].
+/// Energy that these impulses took since note_speeds() [J].
 double taken_by_contacts(const SolverIsland& island);
-/// As note_speeds and taken_by_contacts, of joints: of kept rows what the other rows of an island
-/// leave to them, of coordinates what holds them (DriveRow::taken).
+/// The same for joints: of kept rows, with all of their impulses; of coordinates, what their parts
+/// took (DriveRow::taken).
 void note_joint_speeds(const SolverIsland& island);
 double taken_by_joints(const SolverIsland& island, JointPass pass);
 
-/// Before contacts bounce, besides note_speeds and note_joint_speeds.
+/// To be called before contacts bounce, besides note_speeds and note_joint_speeds.
 void remember_velocities(const SolverIsland& island);
 void remember_relaxing(const SolverIsland& island);
-/// What a blow since then gave, by contacts and joints, armatures included: its share s gives s
-/// linear + s^2 square.
+/// Energy that an impact gave since then to bodies and armatures, by contacts and joints: its share
+/// s gives s linear + s^2 square.
 struct BlowEnergy {
   double linear = 0, square = 0;  ///< [J]
-  /// The share of the blow that may stay where `taken` was taken [J].
+  /// The greatest share of the impact that gives back no more than `taken` [J].
   double bearable_share(double taken) const;
 };
 BlowEnergy blow_energy(const SolverIsland& island);
-/// Leaves this share of the blow to velocities, and to contacts and joints.
+/// Reduces the impact to this share: of velocities, and of impulses of contacts and joints.
 void scale_velocities(const SolverIsland& island, double share);
 void scale_impulses(const SolverIsland& island, double share);
 

@@ -1,4 +1,4 @@
-// What kinematic bodies come over in a tick: it has to go with them.
+// Bodies that kinematic bodies sweep over in a tick move along with these.
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/continuous.hpp"
@@ -79,7 +79,7 @@ void ContinuousStage::list_shapes_in_the_way(std::span<const RigidBody> bodies, 
   }
 }
 
-/// Of what is in the way: leaves the first meeting of each body, ascending.
+/// Computes when the listed pairs meet; keeps the first meeting of each body, ascending.
 void ContinuousStage::time_in_the_way(std::span<const RigidBody> bodies, double h, Crew& crew,
                                       ContinuousStats& stats) {
   stats.tested += in_the_way_.size();
@@ -93,7 +93,7 @@ void ContinuousStage::time_in_the_way(std::span<const RigidBody> bodies, double 
   in_the_way_.erase(rest.begin(), rest.end());
 }
 
-/// Where they meet, the body goes on as if it were part of the carrier.
+/// From where the two meet, the body moves as if it were part of the carrier.
 void ContinuousStage::carry(std::span<RigidBody> bodies, const Candidate& met, double h) {
   const uint32_t slot = met.b.body;
   RigidBody& body = bodies[slot];
@@ -108,7 +108,8 @@ void ContinuousStage::carry(std::span<RigidBody> bodies, const Candidate& met, d
   put_at(body, with.motion.carrier(h) * (with.motion.carrier(met.stop.time).inverse() * at));
   if (met.thin && met.stop.deepens)
     stop_approach(bodies[met.a.body], body, met.stop.at, met.stop.normal);
-  // What it comes over itself is judged by a straight way, on which it is never behind the carrier.
+  // What it sweeps over itself is found along a straight path, on which it is never behind the
+  // carrier.
   track.motion = Motion::between(starts_[slot].pose, body.pose, 0, h);
   track.stop = h;
   track.fast = true;
@@ -148,8 +149,8 @@ void ContinuousStage::hold_carried(std::span<RigidBody> bodies, double h, Crew& 
   }
 }
 
-/// What kinematic bodies come over, then what comes over more because it was taken along, and so
-/// on: each body is carried once.
+/// Moves the bodies that kinematic bodies sweep over, then those that these sweep over, and so on:
+/// each body is carried once.
 void ContinuousStage::carry_along(std::span<RigidBody> bodies, double h, Crew& crew,
                                   ContinuousStats& stats) {
   carried_.clear();

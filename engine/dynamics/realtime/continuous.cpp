@@ -29,8 +29,8 @@ bool triangles(const Shape& a, const Shape& b) {
   return (a.is_mesh() || b.is_mesh()) && a.polyhedral() && b.polyhedral();
 }
 
-/// How fast the set of a body's points turns [rad/s]: without the spin of what is round about an
-/// axis about it.
+/// Angular velocity of a body as a set of points [rad/s]: rotation of a body of revolution about
+/// its axis does not count.
 double swing(const RigidBody& body, const Motion& m) {
   if (body.shapes.size() != 1) return m.omega.norm();
   const BodyShape& s = body.shapes[0];
@@ -87,7 +87,7 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
   return std::ranges::none_of(fast, [](bool any) { return any; });
 }
 
-/// What was worked out of the involved when something was fast does not hold any more.
+/// Marks what was computed for the involved bodies, when something was last fast, as out of date.
 void ContinuousStage::note_stale(size_t bodies, bool everything) {
   all_stale_ |= everything;
   if (all_stale_) return;
@@ -158,7 +158,7 @@ Aabb ContinuousStage::swept_bounds(const RigidBody& body, uint32_t slot, uint32_
   if (!is_active(body)) return bounds;
   bounds.include(part.shape->bounds(starts_[slot].pose * part.pose));
   const Motion& m = tracks_[slot].motion;
-  // Where the angular velocity stands in for many turns, the end of the motion is elsewhere.
+  // Where the angular velocity represents several turns, the computed motion ends at another pose.
   const double angle = m.omega.norm() * (m.t1 - m.t0);
   return bounds.inflated(winds(body, h_) ? 2 * body.bounding_radius
                                          : arc_height(angle, body.bounding_radius));
@@ -181,7 +181,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   proxies_.news.settled.clear();
   for (const uint32_t i : stale_) put_proxies(bodies[i], i);
   const bool most = 2 * stale_.size() > bodies.size();
-  // What is involved now has been somewhere else when something is fast again.
+  // The involved bodies will be elsewhere when something is fast the next time.
   for (const uint32_t i : stale_)
     if (i < is_stale_.size()) is_stale_[i] = 0;
   stale_.clear();
@@ -201,7 +201,7 @@ void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPh
   }
 }
 
-/// Which pair it is, and how deep it may come.
+/// The pair with its allowed depth; sets what kind of pair it is.
 SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candidate& c) const {
   const Track& ta = tracks_[c.a.body];
   const Track& tb = tracks_[c.b.body];
@@ -210,7 +210,7 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candida
   const BodyShape& sa = a.shapes[c.a.shape];
   const BodyShape& sb = b.shapes[c.b.shape];
   const double size = std::min(a.bounding_radius, b.bounding_radius);
-  // Meshes may have no inside at all: some depth must pass as shallow.
+  // Meshes may have no inside at all: some depth must be allowed.
   const bool neither = !ta.fast && !tb.fast;
   const auto inside = [neither](const RigidBody& body, bool fast) {
     return body.dynamic() && (fast || neither) ? body.inner_radius : never;
@@ -218,7 +218,7 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candida
   const double inner = std::max(std::min(inside(a, ta.fast), inside(b, tb.fast)),
                                 tolerances::thin_pair_of_radius * size);
   const double shallow = tolerances::shallow_depth * inner;
-  // Contacts of two surfaces of triangles know the way out up to the full thickness of both.
+  // The contacts of two triangulated surfaces find the way out up to the full thickness of both.
   const bool surfaces = triangles(*sa.shape, *sb.shape);
   const double thickness = std::min(sa.shape->least_thickness(), sb.shape->least_thickness());
   const double passable =
@@ -231,9 +231,9 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candida
   const double precision =
       std::max(tolerances::contact_of_radius * std::min(size, tolerances::contact_radius),
                tolerances::least_contact_distance);
-  // What touches has been in the solver's hands already. Held back, two bodies that both give way
-  // would hang in the air while the rest moves on: thin convex ones, and surfaces of triangles that
-  // do not come past each other in the tick.
+  // The solver knows the contacts of touching pairs already. If two bodies that both can move were
+  // stopped, they would hang in the air while the rest moves on; so these are left to the solver:
+  // thin convex bodies, and triangulated surfaces that do not pass their thickness in the tick.
   const double passing = (ta.motion.velocity - tb.motion.velocity).norm() +
                          ta.motion.omega.norm() * a.bounding_radius +
                          tb.motion.omega.norm() * b.bounding_radius;
@@ -286,7 +286,7 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
   }
   if (events.empty()) return;
   index_candidates(bodies.size());
-  // Contacts ahead of a body that stops early change: whatever it was to meet is timed anew.
+  // When a body stops early, its later contacts change and are computed anew.
   while (!events.empty() && !stop_requested()) {
     const size_t i = events.begin()->second;
     events.erase(events.begin());
@@ -306,7 +306,7 @@ void ContinuousStage::stop_in_order(std::span<const RigidBody> bodies, double h)
     }
     for (const uint32_t body : stopped) tracks_[body].stop = c.stop.time;
     c.held = !stopped.empty();
-    // A stopped body can also get into the way of what would have missed it.
+    // A stopped body can also block a body that would have missed it.
     for (const uint32_t body : stopped) {
       for (const uint32_t k : candidates_of(body)) {
         Candidate& other = candidates_[k];
@@ -326,7 +326,7 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
     const Track& track = tracks_[i];
     RigidBody& body = bodies[i];
     if (track.stop >= h) {
-      // Where the angular velocity stood in for many turns it ends elsewhere.
+      // The computed motion of a body with several turns ends at another pose.
       if (track.fast && watched[i] && winds(body, h)) put_at(body, track.motion.carrier(h));
       continue;
     }
@@ -335,12 +335,12 @@ void ContinuousStage::place(std::span<RigidBody> bodies, double h, ContinuousSta
     const bool flew =
         (body.v - starts_[i].v - h * a_free).norm() < tolerances::free_flight * (1 + body.v.norm());
     put_at(body, track.motion.carrier(track.stop));
-    // What gravity would have added on the way that it did not go must not stay with it.
+    // Removes the speed that gravity would have added on the rest of the path.
     if (flew) body.v -= (h - track.stop) * body.gravity_scale * gravity_;
   }
 }
 
-/// Stops fast bodies at what is in their way.
+/// Stops fast bodies at obstacles.
 void ContinuousStage::hold_fast(std::span<RigidBody> bodies, BroadPhase& broad_phase, double h,
                                 Crew& crew, ContinuousStats& stats) {
   broad_phase.use_threads(&crew);
@@ -348,7 +348,7 @@ void ContinuousStage::hold_fast(std::span<RigidBody> bodies, BroadPhase& broad_p
   stats.tested += candidates_.size();
   crew.each(candidates_.size(), [&](size_t i) {
     Candidate& c = candidates_[i];
-    // Pairs that move together are timed only when one of them is stopped.
+    // Pairs that move together are timed only if one of them is stopped.
     if (far_apart(bodies, c.a, c.b)) time_candidate(bodies, h, c);
   });
   stop_in_order(bodies, h);

@@ -1,5 +1,4 @@
-// Joints that are solved at once since couplings tie them, in the inner loops of the realtime
-// solver.
+// Joints connected by couplings, solved at once in the inner loops of the realtime solver.
 #include "engine/dynamics/realtime/coupled_joints.hpp"
 
 #include "engine/core/disjoint_sets.hpp"
@@ -18,8 +17,8 @@ auto entries(CoupledJoints& all) {
   return [&all](uint32_t i, uint32_t j) -> double& { return all.factor[i * all.count + j]; };
 }
 
-/// Calls f(joint, its row, row) for the kept rows of all joints, and then, the couplings passed
-/// over, for those of their coordinates.
+/// Calls f(joint, its row, row of the group) for the kept rows of all joints, then, after the rows
+/// of couplings, for those of their coordinates.
 template <class F>
 void for_joint_rows(const SolverIsland& island, const CoupledJoints& all, const F& f) {
   uint32_t row = 0;
@@ -62,7 +61,7 @@ void push(const SolverIsland& island, const Line& line, double impulse) {
   }
 }
 
-/// Their entry of J M^-1 J^T.
+/// The entry of J M^-1 J^T of two rows.
 double product(const SolverIsland& island, const Line& p, const Line& q) {
   double sum = 0;
   for (uint32_t i = 0; i < p.ends; ++i)
@@ -114,7 +113,7 @@ void set_lines(const SolverIsland& island, CoupledJoints& all) {
   }
 }
 
-/// Of the coordinates, from the factor.
+/// Sets the compliances of coordinates from the factor.
 void set_compliances(const SolverIsland& island, CoupledJoints& all) {
   for_joint_rows(island, all, [&](const JointBlock& joint, uint32_t i, uint32_t row) {
     if (i >= joint.kept)

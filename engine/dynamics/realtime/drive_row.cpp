@@ -1,4 +1,4 @@
-// What acts along coordinates of joints in the inner loops of the realtime solver.
+// Force laws along coordinates of joints in the inner loops of the realtime solver.
 #include "engine/dynamics/realtime/drive_row.hpp"
 
 #include "engine/dynamics/realtime/tolerances.hpp"
@@ -18,8 +18,9 @@ double DriveRow::put_step(Cause cause, double at, double least, double most) {
   return law.step_at(part);
 }
 
-/// How much of a damper's impulse of the relaxing pass is implicit: with a for its strength over
-/// half of a sub-step, v -> v / (1 + a) and then v -> (1 - (1 - s) a) / (1 + s a) v make e^(-2a).
+/// The implicit share s of a damper's impulse in the relaxing pass: with a its strength over half a
+/// sub-step, the passes v -> v / (1 + a) and v -> (1 - (1 - s) a) / (1 + s a) v together give
+/// exp(-2 a).
 double DriveRow::implicit_share(double hs) const {
   double damping = drive->spring.damping;
   if (drive->motor.kind == MotorKind::position) damping += drive->motor.damping;
@@ -41,7 +42,7 @@ void DriveRow::set_law(JointPass pass, double hs) {
     set_relaxing(hs);
   }
   const double most = half * drive->motor.max_force;
-  // What moves the bodies is their velocity in the middle of the sub-step.
+  // The bodies move with the velocity in the middle of the sub-step.
   const double target = drive->motor.target_at(pass == JointPass::moving ? t + half : t + hs);
   if (drive->motor.kind == MotorKind::velocity) motor_rate = put_step(motor, target, -most, most);
   if (drive->motor.kind == MotorKind::force) {
@@ -54,7 +55,7 @@ void DriveRow::set_law(JointPass pass, double hs) {
 
 void DriveRow::set_moving(double hs) {
   const double half = 0.5 * hs;
-  // -half (k (value + curve/2 + half v - rest) + c v), within bounds.
+  // Adds -half (k (value + curve/2 + half v - rest) + c v), within bounds.
   const auto pull = [&](Cause cause, double k, double c, double rest, double least, double most,
                         double rest_rate = 0) {
     springs[cause] = -half * k * (value + 0.5 * curve - rest);
@@ -79,9 +80,9 @@ void DriveRow::set_moving(double hs) {
   if (l.upper < no_bound) pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
 }
 
-/// The end of the sub-step at twice the present speed is beyond a limit that bounces. What a limit
-/// stops although this is not so was faster by its acceleration within the sub-step: no impact. A
-/// motor of any strength would be back at the limit at once.
+/// Whether a bouncing limit lies within what twice the present speed covers in the sub-step. A
+/// limit that is reached otherwise was reached by acceleration within the sub-step, which is no
+/// impact. A motor of unlimited force would be back at the limit at once.
 bool DriveRow::may_bounce(double hs) const {
   const CoordinateLimits& l = drive->limits;
   if (!l.hard() || l.restitution == 0 || drive->motor.holds_rate_with_any_force()) return false;
@@ -92,7 +93,7 @@ bool DriveRow::may_bounce(double hs) const {
 void DriveRow::put_hard_limits(double hs) {
   const CoordinateLimits& l = drive->limits;
   const auto speed = [&](double limit) { return (limit - value - curve) / hs; };
-  // What is beyond a limit comes back no faster than joints that are open close.
+  // A coordinate beyond a limit returns no faster than open joints close.
   if (l.lower > -no_bound)
     put_step(lower, std::min(speed(l.lower), tolerances::max_joint_correction), 0, no_bound);
   if (l.upper < no_bound)
@@ -124,8 +125,7 @@ void DriveRow::end_moving(double hs, double kick) {
   at_lower = held_below;
   at_upper = held_above;
   if (!(held_below || held_above) || !nears_limit) return;
-  // The speed of the impact is that of a steady acceleration from the start of the sub-step to the
-  // limit.
+  // Impact speed for a constant acceleration from the start of the sub-step to the limit.
   const double acceleration = (free - rate) / kick;
   const double way = (held_below ? d.limits.lower : d.limits.upper) - value;
   const double speed = std::sqrt(std::max(0.0, rate * rate + 2 * acceleration * way));
@@ -151,10 +151,10 @@ void DriveRow::set_relaxing(double hs) {
   }
   const CoordinateLimits& l = d.limits;
   if (l.hard()) {
-    // The speed that brought it back from beyond a limit is taken away again: what a limit does in
-    // both passes together never pulls.
+    // Removes the speed with which it returned from beyond a limit: the impulses of a limit in both
+    // passes together never pull.
     const bool below = at_lower || value <= l.lower, above = at_upper || value >= l.upper;
-    // Between two limits there is nowhere to go.
+    // Between two limits that are both reached nothing can bounce.
     const double up = above ? 0 : bounce_lower, down = below ? 0 : bounce_upper;
     if (below) put_step(lower, up, -held_lower, no_bound);
     if (above) put_step(upper, -down, -no_bound, -held_upper);

@@ -11,8 +11,8 @@ namespace tumble {
 
 namespace {
 
-/// integrate_rotation with the series of sin and cos where the angle is small, which it is in
-/// nearly every sub-step; error below 1e-16 for half angles below 0.05.
+/// integrate_rotation by series of sine and cosine for small angles, as in nearly every sub-step;
+/// error below 1e-16 for half angles below 0.05.
 Quat turned(const Quat& q, const Vec3& omega, double h) {
   const double half2 = 0.25 * h * h * omega.squaredNorm();
   if (half2 > tolerances::series_half_turn2) return integrate_rotation(q, omega, h);
@@ -44,9 +44,9 @@ void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h) {
 namespace {
 
 /// Free rotation over h in steps of at most a twentieth of a radian. A body that would need more
-/// than `most` of them turns about its angular velocity as it is: that keeps its energy, where long
-/// steps of the rule above would come to turn about the axis of least inertia and make energy from
-/// nothing. Needles have a rule of their own.
+/// than `most` steps rotates about its present angular velocity instead: that keeps its energy,
+/// whereas long midpoint steps end in rotation about the axis of least inertia and create energy.
+/// Needles have a rule of their own.
 void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
   if (const auto slender = slender_inertia(body.inertia_body)) {
     const Vec3 L = angular_momentum(body, q, omega);
@@ -82,7 +82,8 @@ void integrate_positions(const SolverContext& c, const SolverIsland& island, dou
     SolverBody& body = island.bodies[i];
     const RigidBody& source = c.bodies[motion.slot];
     body.dx += hs * body.v;
-    // The gyroscopic term matters from some turning per sub-step on.
+    // Below a small angle per sub-step the gyroscopic term is negligible, except for jointed
+    // bodies.
     const double slow = motion.jointed ? 0 : tolerances::gyroscopic_turn2;
     if (motion.dynamic && !motion.spherical && body.w.squaredNorm() * hs * hs > slow) {
       Quat q = motion.dq * source.pose.q;

@@ -3,22 +3,22 @@
 
 namespace tumble {
 
-/// Velocities after gravity, force and torque of a sub-step.
+/// Changes velocities by gravity, force and torque over `hs`.
 void integrate_velocities(const SolverContext& context, const SolverIsland& island, double hs);
-/// Positions and orientations after a sub-step; turns the angular velocity so that angular
-/// momentum stays.
+/// Moves positions and orientations over a sub-step; changes the angular velocity so that angular
+/// momentum is conserved.
 void integrate_positions(const SolverContext& context, const SolverIsland& island, double hs);
-/// A body that nothing touches, over a whole tick: the parabola of uniform gravity exactly, other
-/// forces as one impulse at the start (symplectic Euler), rotation by the midpoint rule with exact
-/// angular momentum.
+/// Moves a body that nothing touches over a whole tick: the exact parabola under uniform gravity,
+/// other forces as one impulse at the start (symplectic Euler), rotation by the midpoint rule with
+/// exact angular momentum.
 void fly(RigidBody& body, const Vec3& gravity, double h);
-/// A kinematic body over a whole tick.
+/// Moves a kinematic body over a whole tick.
 void carry(RigidBody& body, double h);
 /// Copies the end state of an island's bodies back.
 void store_bodies(const SolverContext& context, const SolverIsland& island);
 
-/// One step of torque-free rotation: `q` and world `omega` after `h`, for the angular momentum that
-/// they had. Midpoint rule on the rotation group, by `midpoint_iterations` fixed-point iterations.
+/// One step of torque-free rotation: `q` and world `omega` after `h`, with the angular momentum at
+/// its start. Midpoint rule on the rotation group, by `midpoint_iterations` fixed-point iterations.
 void rotate_freely(const RigidBody& body, Quat& q, Vec3& omega, double h);
 
 }  // namespace tumble

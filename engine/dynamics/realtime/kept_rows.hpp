@@ -6,13 +6,13 @@
 
 namespace tumble {
 
-// Rows that are solved at once: first those that are kept, then those of force laws, to which the
-// kept ones are a constraint. With k(i, j) for the entries of K = J M^-1 J^T as a lower triangle,
-// of `n` rows of which `kept` are kept.
+// Rows that are solved at once: first the kept rows (constraints), then rows with force laws, which
+// must respect the constraints. k(i, j) accesses the lower triangle of K = J M^-1 J^T of `n` rows,
+// of which the first `kept` are kept.
 
-/// L D L^T in place of K: below the diagonal L, on it 1/D of the kept rows (0 where they depend on
-/// the ones before: these get no impulse). The block of the others becomes what the kept rows leave
-/// of it, as compliance. `scaled` has room for a row.
+/// Replaces K by L D L^T: L below the diagonal, on it 1/D for kept rows (0 for a row that depends
+/// linearly on those before; it gets no impulse). The block of the other rows becomes their Schur
+/// complement, the compliance under the constraints. `scaled` has room for a row.
 template <class Matrix, class Room>
 void factorise_kept(const Matrix& k, uint32_t kept, uint32_t n, Room& scaled) {
   const auto divide = [&](uint32_t j, uint32_t columns) {
@@ -43,12 +43,12 @@ void factorise_kept(const Matrix& k, uint32_t kept, uint32_t n, Room& scaled) {
   }
 }
 
-// Where kept rows are soft they take only 1 - `give` of their velocities away, and `give` of their
-// impulses so far (Softness::impulse_scale): as if K were larger by give / (1 - give) of itself
-// among them. The rest gets through to the other rows, which must know of it: what sweeps repeat
-// converges where each solves one and the same problem to its end.
+// A soft kept row removes only 1 - `give` of its velocity, and `give` of its impulse so far
+// (Softness::impulse_scale), as if K were larger by give / (1 - give) of itself among the kept
+// rows. The remaining velocity affects the other rows and must be taken into account there: the
+// sweeps then solve one and the same system block by block, and converge.
 
-/// Once after factorise_kept: the compliance that soft kept rows leave of the others.
+/// Once after factorise_kept: the compliance of the other rows under soft kept rows.
 template <class Matrix>
 void soften_kept(const Matrix& k, uint32_t kept, uint32_t n, double give) {
   for (uint32_t j = kept; j < n; ++j)
@@ -57,8 +57,8 @@ void soften_kept(const Matrix& k, uint32_t kept, uint32_t n, double give) {
         if (k(m, m) > 0) k(j, i) += give * k(j, m) * k(i, m) / k(m, m);
 }
 
-/// After eliminate_kept: the velocities that they leave of the others. impulse(i) is that of a kept
-/// row so far.
+/// After eliminate_kept: corrects the velocities of the other rows for the softness of the kept
+/// rows. impulse(i) is the impulse of a kept row so far.
 template <class Matrix, class Values, class Impulse>
 void leave_of_soft(const Matrix& k, uint32_t kept, uint32_t n, double give, const Impulse& impulse,
                    Values& x) {
@@ -71,14 +71,15 @@ void leave_of_soft(const Matrix& k, uint32_t kept, uint32_t n, double give, cons
   }
 }
 
-/// x -= L^-1 x: velocities without what the kept rows do about theirs.
+/// x = L^-1 x (forward substitution): velocities of the other rows with the kept rows solved.
 template <class Matrix, class Values>
 void eliminate_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {
   for (uint32_t i = 0; i < n; ++i)
     for (uint32_t m = 0; m < std::min(i, kept); ++m) x[i] -= k(i, m) * x[m];
 }
 
-/// From eliminated velocities, and the changes of the other impulses, to those of the kept rows.
+/// Backward substitution: from eliminated velocities and changes of the other impulses to the
+/// changes of kept impulses, all negative.
 template <class Matrix, class Values>
 void substitute_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {
   for (uint32_t i = 0; i < kept; ++i) x[i] *= k(i, i);
@@ -86,9 +87,9 @@ void substitute_kept(const Matrix& k, uint32_t kept, uint32_t n, Values& x) {
     for (uint32_t m = i + 1; m < n; ++m) x[i] -= k(m, i) * x[m];
 }
 
-/// The rows of force laws, from eliminated velocities to changes of impulses, negative, one after
-/// the other until that is done. law(i) solves row i (see DriveRow::solve) given what the velocity
-/// were without its impulse; impulse(i) is that so far.
+/// Solves the rows of force laws one after the other, in a few sweeps: from eliminated velocities
+/// to negative changes of impulses. law(i, free) is the impulse of row i given the velocity without
+/// it (DriveRow::solve); impulse(i) is its impulse so far.
 template <class Matrix, class Values, class Law, class Impulse>
 void solve_laws(const Matrix& k, uint32_t kept, uint32_t n, const Law& law, const Impulse& impulse,
                 Values& change, Values& x) {

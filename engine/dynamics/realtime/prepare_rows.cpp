@@ -26,12 +26,12 @@ ContactSoftness contact_softness(const RealtimeSettings& settings, double hs) {
 
 namespace {
 
-/// Contacts beside springs: however hard these press, nothing gives way.
+/// Softness of contacts in islands with springs: none, however hard the springs press.
 Softness rigid_step(double hs) {
   return {tolerances::rigid_share / hs, 1, 0};
 }
 
-/// Mobility of a point of a body: v = K P for an impulse P at lever arm r.
+/// Mobility u.K v of a body's point: K P is its change of velocity by an impulse P at lever arm r.
 double mobility(const SolverBody& body, const Vec3& r, const Vec3& u, const Vec3& v) {
   return body.inverse_mass * u.dot(v) + r.cross(u).dot(body.inverse_inertia * r.cross(v));
 }
@@ -52,7 +52,7 @@ void set_masses(const SolverIsland& island, const ContactRow& row, PointRow& p) 
   p.tangent_mass = 1 / (half + std::sqrt(diff * diff + k12 * k12));
 }
 
-/// Of a row that resists turning, its axes being set.
+/// Sets the masses of rolling and torsional friction; the axes of the row must be set.
 void set_turning_masses(const SolverIsland& island, ContactRow& row) {
   const Mat3 axes = Mat3::from_columns(row.t1, row.t2, row.n);
   const Mat3 k = island.bodies[row.a].inverse_inertia + island.bodies[row.b].inverse_inertia;
@@ -75,9 +75,9 @@ Vec3 point_velocity(const SolverBody& body, const Vec3& r) {
   return body.v + body.w.cross(r);
 }
 
-/// Speed after a bounce that returns e^2 of the energy of the approach. The contact is reached
-/// somewhere inside the tick and left at its end, so the fall through the gap is added to the
-/// speed at the start.
+/// Speed after a bounce that returns e^2 of the energy of the approach. The contact closes some
+/// time within the tick and is left at its end, so the fall through the gap is added to the speed
+/// at the start.
 double bounce_speed(double e, double approach, double acceleration, double gap) {
   return e * std::sqrt(approach * approach + 2 * std::max(0.0, acceleration) * std::max(0.0, gap));
 }
@@ -112,8 +112,8 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
   motion.dynamic = body.dynamic();
   motion.spins = turns_fast(body, c.h);
   if (!motion.dynamic) return;
-  // With the inertia of an axis that is off by d, a blow across a needle makes d I3 / I1 times too
-  // much spin about its length.
+  // With the inertia tensor of an axis that is off by an angle d, an impact across a needle causes
+  // d I3 / I1 times too much spin about its axis.
   motion.spins = motion.spins || slender_inertia(body.inertia_body);
   out.inverse_mass = body.inverse_mass;
   out.inverse_inertia = body.inverse_inertia_world();
@@ -174,13 +174,14 @@ void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
     for (uint32_t i = 0; i < row.count; ++i) {
       const ContactPoint& from = contact.points[i];
       PointRow& p = island.points[row.first + i];
-      // Only what is inside the rounding turns with the body.
+      // Only the part of the arm inside the rounding turns with the body.
       const Vec3 round_a = row.rounding_a * row.n, round_b = -row.rounding_b * row.n;
       const Vec3 ra = pose_a.direction(from.anchor_a) - round_a;
       const Vec3 rb = pose_b.direction(from.anchor_b) - round_b;
       p.ra = ra + a.turn * ra + round_a;
       p.rb = rb + b.turn * rb + round_b;
-      // solve_rows adds n.(turn r) with the new lever arms; the sum must stay that of the old ones.
+      // solve_rows adds n.(turn r) with the new lever arms; corrected so that the sum stays that of
+      // the old ones.
       p.gap = from.gap + row.n.dot(b.turn * (rb + round_b - p.rb) - a.turn * (ra + round_a - p.ra));
       set_masses(island, row, p);
     }

@@ -5,21 +5,22 @@
 
 namespace tumble {
 
-/// What can be tuned about the `realtime` stepper. Part of the state of a world.
+/// Settings of the `realtime` stepper. Part of the state of a world.
 struct RealtimeSettings {
   int substeps = 4;                    ///< sub-steps per tick of ordinary islands
-  int max_substeps = 16;               ///< of precise islands
+  int max_substeps = 16;               ///< the same of precise islands, as far as their size allows
   bool precise = false;                ///< all islands are precise, as far as their size allows
   int max_parts = 4;                   ///< of a tick in which thin meshes move fast
   double contact_frequency = 120;      ///< [Hz], at most an eighth of the sub-step rate
-  double contact_damping_ratio = 10;   ///< [-]
-  double push_out_speed = 3;           ///< [m/s]
-  double restitution_threshold = 0.5;  ///< [m/s]
-  double speculative_margin = 0.02;    ///< [m]
+  double contact_damping_ratio = 10;   ///< relative to critical damping [-]
+  double push_out_speed = 3;           ///< greatest speed at which overlap is corrected [m/s]
+  double restitution_threshold = 0.5;  ///< slower impacts do not bounce [m/s]
+  double speculative_margin = 0.02;    ///< distance at which contacts are foreseen [m]
   bool continuous = true;
   bool sleeping = true;
-  double sleep_speed = 0.012;  ///< in multiples of sqrt(g r) [-]
-  double sleep_time = 0.5;     ///< [s]
+  /// Below it a body rests; in multiples of sqrt(gravity * radius) [-]
+  double sleep_speed = 0.012;
+  double sleep_time = 0.5;  ///< for which an island must rest before it sleeps [s]
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

@@ -17,8 +17,8 @@
 
 namespace tumble {
 
-/// Memory that is kept from step to step; islands own disjoint ranges of every array. Ordinary
-/// islands with contacts or joints go to `wide` and own nothing here.
+/// Memory that is reused from step to step; each island owns a range of every array. Ordinary
+/// islands with contacts or joints are in `wide` and own nothing here.
 struct RealtimeSolver::Scratch {
   struct Range {
     uint32_t begin = 0, end = 0;
@@ -72,7 +72,7 @@ uint32_t RealtimeSolver::Scratch::add_body(uint32_t slot) {
   return uint32_t(bodies.size() - 1);
 }
 
-/// After the island's joints.
+/// Adds the couplings of an island, whose joints must have been added.
 template <class Find>
 void RealtimeSolver::Scratch::add_couplings(const SolverContext& context, uint32_t island,
                                             const Layout& layout, const Find& find) {
@@ -102,7 +102,8 @@ void RealtimeSolver::Scratch::lay_out_island(const SolverContext& context, const
   const uint32_t fixed = add_body(no_slot);
   const auto find = [&](uint32_t slot) {
     if (slot == no_body || context.bodies[slot].type == BodyType::fixed) return fixed - base;
-    if (local[slot] == no_slot) local[slot] = add_body(slot);  // kinematic, seen first here
+    // kinematic body that occurs for the first time
+    if (local[slot] == no_slot) local[slot] = add_body(slot);
     return local[slot] - base;
   };
   for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
@@ -186,7 +187,8 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 
 namespace {
 
-/// What the joints of the islands did and where their coordinates are after `c.h`.
+/// Adds up the impulses of the islands' joints, and updates the values of their coordinates after
+/// `c.h`.
 void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew) {
   const std::span<const uint32_t> which = islands.joints;
   for_chunks(&crew, which.size(), [&](size_t, size_t first, size_t last) {
@@ -198,7 +200,7 @@ void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew)
   });
 }
 
-/// Names what broke: the body and its deepest contact.
+/// Names the body that became non-finite and its deepest contact.
 Error non_finite(std::span<const RigidBody> bodies, std::span<const Contact> contacts,
                  uint32_t slot) {
   const Contact* deepest = nullptr;
@@ -225,7 +227,7 @@ Error non_finite(std::span<const RigidBody> bodies, std::span<const Contact> con
 }
 
 bool finite(const RigidBody& b) {
-  // One sum is enough: any infinity or NaN survives it.
+  // The sum suffices: any infinity or NaN makes it non-finite.
   const double sum = b.pose.x.cwiseAbs().sum() + b.pose.q.coeffs().cwiseAbs().sum() +
                      b.v.cwiseAbs().sum() + b.omega.cwiseAbs().sum();
   return std::isfinite(sum);

@@ -18,24 +18,24 @@ namespace tumble {
 struct RealtimeSolveStats {
   uint64_t islands = 0;
   uint64_t awake = 0;     ///< dynamic bodies that were integrated
-  uint64_t contacts = 0;  ///< that were solved
+  uint64_t contacts = 0;  ///< number of contacts that were solved
   uint64_t points = 0;
-  uint64_t joints = 0;        ///< that were solved
+  uint64_t joints = 0;        ///< number of joints that were solved
   double residual = 0;        ///< greatest approach speed left at a pressed point [m/s]
   double joint_residual = 0;  ///< greatest velocity left in a row of a joint [m/s, rad/s]
 
-  /// Takes in what was solved besides.
+  /// Adds the statistics of another part of the bodies.
   void add(const RealtimeSolveStats& other);
 };
 
-/// Advances bodies under gravity, their force and torque sums and their contacts by one tick.
+/// Moves bodies over one tick under gravity, their sums of force and torque, contacts and joints.
 ///
-/// Sub-stepped soft contacts: E. Catto, "Solver2D" (2024), with the soft step of "Soft Constraints"
-/// (GDC 2011): each sub-step integrates velocities, warm starts, solves once with bias, integrates
-/// positions and relaxes once without bias; restitution follows the last sub-step. Friction is a
-/// disc of radius mu times the normal impulse in the tangent plane. How many sub-steps an island
-/// takes follows from itself (SolvePlan). Rotation keeps angular momentum exactly where nothing
-/// touches.
+/// Soft contacts with sub-steps after E. Catto, "Solver2D" (2024), with the soft step of "Soft
+/// Constraints" (GDC 2011): each sub-step integrates velocities, warm starts, sweeps once with
+/// bias, integrates positions, and sweeps once without bias (relaxing); restitution follows the
+/// last sub-step. Friction is bounded by a disc of radius mu times the normal impulse in the
+/// tangent plane. The number of sub-steps of an island depends on the island itself (SolvePlan). In
+/// free flight rotation conserves angular momentum exactly.
 class RealtimeSolver {
  public:
   RealtimeSolver();
@@ -43,13 +43,13 @@ class RealtimeSolver {
   RealtimeSolver(RealtimeSolver&&) noexcept;
   RealtimeSolver& operator=(RealtimeSolver&&) noexcept;
 
-  /// Moves every awake dynamic body of `islands` and every kinematic body; writes back poses,
-  /// velocities and the impulses of contacts, of `joints`, which are those that the islands name,
-  /// and of their couplings, and what `springs` did, of which the links made islands. `h` may be a
-  /// part of the tick, of which `passed` seconds are over. RigidBody::force and torque are without
-  /// gravity and stay as they are. Islands are solved in parallel inside `crew`; the result does
-  /// not depend on the number of threads. Error `numeric` names the first body slot that became
-  /// non-finite and its deepest contact; the bodies are then in an undefined state.
+  /// Moves every awake dynamic body of `islands` and every kinematic body. Writes back poses and
+  /// velocities, the impulses of contacts, of the joints that the islands name and of their
+  /// couplings, and those of `springs`, whose links were used in building the islands. `h` [s] may
+  /// be a part of the tick, of which `passed` seconds are over. RigidBody::force and torque exclude
+  /// gravity and stay unchanged. Islands are solved in parallel on `crew`; the result does not
+  /// depend on the number of threads. Error `numeric` names the first body slot that became
+  /// non-finite and its deepest contact; the state of the bodies is then undefined.
   Result<RealtimeSolveStats> step(std::span<RigidBody> bodies, ContactSet& contacts,
                                   const IslandSet& islands, const Vec3& gravity, double h,
                                   const RealtimeSettings& settings, Crew& crew,
@@ -57,12 +57,13 @@ class RealtimeSolver {
                                   std::span<JointCoupling> couplings = {}, double passed = 0,
                                   std::span<SolvedSpring> springs = {});
 
-  /// What the joints that the islands of the last step name did to their bodies in it, by index.
+  /// By joint index: impulses of the joints on their bodies in the last step, for joints that its
+  /// islands name.
   std::span<const JointPush> joint_pushes() const;
 
   void add_memory(MemoryUse& use) const;
 
-  /// Memory of the solver only: nothing here outlives a step.
+  /// Scratch memory only: no state outlives a step.
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;

@@ -11,9 +11,9 @@ namespace tumble {
 
 namespace {
 
-/// Speed [m/s] below which a body rests, with ticks of h seconds. `pull` is the acceleration that
-/// holds it in place: without one only what is as good as still may sleep; with one, nothing at a
-/// speed that a body in free flight could stay below for `sleep_time`, however large it is.
+/// Speed below which a body rests [m/s], with ticks of h seconds. `pull` is the acceleration that
+/// holds it in place [m/s2]: without it only nearly motionless bodies may sleep; with it, the speed
+/// is limited so that a large body cannot stay below it in free flight for `sleep_time`.
 double resting_speed(const RigidBody& body, double pull, const RealtimeSettings& settings,
                      double h) {
   const double r = body.bounding_radius;
@@ -33,10 +33,10 @@ void lay_down(RigidBody& body) {
   body.rest = {};
 }
 
-/// Counts for how long the fastest point of the body has been slower than `resting` in the mean
-/// over `span` (exponentially weighted): deep in a pile contacts tremble as their points take
-/// turns, and what trembles gets nowhere. Means of velocities, unlike differences of places, are as
-/// good far from the origin.
+/// Counts for how long the speed bound of the body's points, averaged exponentially over `span`,
+/// has been below `resting`: deep in a pile contacts tremble because points press in turn, without
+/// net motion. Averages of velocities, unlike differences of positions, stay accurate far from the
+/// origin.
 void watch(RigidBody& body, double resting, double span, bool may_rest, double h) {
   RestWatch& rest = body.rest;
   const double share = h / (h + span);

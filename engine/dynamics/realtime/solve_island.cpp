@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// Restitution and joints in turn: the blow goes through the whole mechanism, and gives back no
-/// more than contacts took. Whether there was one.
+/// Alternates restitution and sweeps over joints, so that the impact spreads through the mechanism,
+/// and limits its energy to `taken`. Returns whether anything bounced.
 bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
   if (island.joints.empty()) return apply_restitution(c, island) > 0;
   note_speeds(island, 1);
@@ -35,13 +35,13 @@ bool bounce(const SolverContext& c, const SolverIsland& island, double hs, doubl
   return true;
 }
 
-/// After the relaxing pass.
+/// To be called after the relaxing pass.
 void end_substep(const SolverIsland& island, double hs, bool bounced) {
   sum_joints(island, hs, JointPass::relaxing);
   if (bounced || limit_bounces(island)) recall_impulses(island);
 }
 
-/// Springs, joints and contacts in turn, as often as springs still change.
+/// Solves springs, joints and contacts in turn, until springs change little.
 void solve_springs(const SolverIsland& island, double hs, double push_out) {
   const size_t sweeps = std::clamp(tolerances::spring_budget / island.springs.size(),
                                    tolerances::least_spring_sweeps, tolerances::most_spring_sweeps);
@@ -63,8 +63,8 @@ void solve_springs(const SolverIsland& island, double hs, double push_out) {
 SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n) {
   const double hs = c.h / n;
   const double push_out = c.settings->push_out_speed;
-  // Where nothing but joints acts forces kick in two halves, which makes the sub-step symmetric and
-  // of second order. Contacts need the whole kick before them, or they would let go in between.
+  // In islands with joints only, forces act in two halves, which makes the sub-step symmetric and
+  // of second order. Contacts need all of the force before them, or they would open in between.
   const bool halves = island.rows.empty() && island.springs.empty();
   const double kick = island.kick = halves ? 0.5 * hs : hs;
   island.joint_softness = joint_softness(hs);

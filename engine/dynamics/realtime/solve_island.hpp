@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// All `n` sub-steps of one precise island, whose rows, joints and drives have been laid out.
+/// Takes all `n` sub-steps of one precise island, whose rows, joints and drives have been laid out.
 SolveResiduals solve_island(const SolverContext& context, SolverIsland& island, int n);
 
 }  // namespace tumble

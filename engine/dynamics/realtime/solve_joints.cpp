@@ -37,7 +37,7 @@ namespace {
 
 using Values = JointBlock::Values;
 
-/// The entries of a joint's factor.
+/// Access to the entries of a joint's factor.
 auto entries(JointBlock& joint) {
   return [&joint](uint32_t i, uint32_t j) -> double& { return joint.factor[i][j]; };
 }
@@ -57,13 +57,13 @@ void set_effective_mass(const SolverBody& a, const SolverBody& b, JointBlock& jo
   factorise_kept(entries(joint), joint.kept, joint.count, scaled);
 }
 
-/// Of the coordinates, from the factor.
+/// Sets the compliances of coordinates from the factor.
 void set_compliances(const SolverIsland& island, const JointBlock& joint) {
   for (uint32_t i = joint.kept; i < joint.count; ++i)
     drives_of(island, joint)[i - joint.kept].mass = joint.factor[i][i];
 }
 
-/// Of impulse(row).
+/// Impulse and moments on both bodies of impulses impulse(row).
 template <class F>
 JointPush push_of(const JointBlock& joint, const F& impulse) {
   JointPush push;
@@ -123,7 +123,8 @@ void solve_joint(const SolverIsland& island, double hs, JointPass pass, JointBlo
   push_joint(island, joint, push_of(joint, change));
 }
 
-/// Compliances of coordinates in the passes before the bodies move, where joints are soft.
+/// Sets the compliances of coordinates for the passes before the bodies move, in which joints are
+/// soft.
 void soften_joints(const SolverIsland& island) {
   const double give = island.joint_softness.impulse_scale;
   if (give == 0 || island.drives.empty()) return;
@@ -135,7 +136,7 @@ void soften_joints(const SolverIsland& island) {
   soften_couplings(island, give);
 }
 
-/// Force laws of a pass, before any impulse of it.
+/// Sets up the force laws of a pass, before any of its impulses.
 void start_drives(const SolverIsland& island, double hs, JointPass pass) {
   if (island.drives.empty()) return;
   for (JointBlock& joint : island.joints) {
@@ -150,7 +151,7 @@ void start_drives(const SolverIsland& island, double hs, JointPass pass) {
   }
 }
 
-/// The rows of the coordinates at the present poses and velocities.
+/// Computes the rows of coordinates at the present poses and velocities.
 void refresh_drives(const SolverIsland& island, double hs, const JointKindEntry& kind,
                     const JointSides& sides, JointBlock& joint) {
   const double turned = (sides.b.omega - sides.a.omega).norm() * hs;
@@ -161,7 +162,7 @@ void refresh_drives(const SolverIsland& island, double hs, const JointKindEntry&
     joint.lines[joint.kept + size_t(&d - &island.drives[joint.first_drive])] = {
         row.row.b.linear, row.row.a.angular, row.row.b.angular, row.error, row.bias};
     d.value = coordinate.turns ? nearest_turn(row.error, d.value + hs * d.moved) : row.error;
-    // A second derivative says nothing of what goes on beyond the motion itself.
+    // The second-order term is limited to the motion itself, beyond which it predicts nothing.
     const double most = coordinate.angle ? turned : moved;
     d.curve = std::clamp(0.5 * hs * hs * row.bias, -most, most);
   }
@@ -278,7 +279,7 @@ void sweep_joints(const SolverIsland& island, double hs, JointPass pass, JointSw
 
 namespace {
 
-/// What works off errors becomes part of what is remembered.
+/// Adds the correcting impulses to those that are warm-started.
 void keep_corrections(const SolverIsland& island) {
   for (JointBlock& joint : island.joints)
     for (uint32_t i = 0; i < joint.kept; ++i)
@@ -304,7 +305,7 @@ void move_onto_joints(const SolverIsland& island, double hs) {
 void relax_joints(const SolverIsland& island, double hs) {
   const JointSweeps all{0, island.joint_sweeps};
   sweep_joints(island, hs, JointPass::relaxing, all);
-  // A blow goes through the whole mechanism.
+  // The impact spreads through the whole mechanism.
   for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
     if (!(blow_change(island) > tolerances::bounce_error)) return;
     sweep_joints(island, hs, JointPass::relaxing, all);

@@ -6,44 +6,43 @@
 
 namespace tumble {
 
-/// Sub-steps of joints in the realtime solver. A sub-step is that of RATTLE (Andersen 1983):
-/// impulses along the Jacobian of its start so that its end is on the joint, then impulses along
-/// the Jacobian of its end so that velocities are too; both are warm-started on their own. In
-/// ordinary islands what works off errors that earlier sub-steps left is no part of that:
-/// remembered, it would go on adding up while sweeps that have not converged leave the error, and
-/// would set in motion slow modes of a mechanism, ever faster, from nothing. Rows of
-/// one joint are solved together, joints one after the other in the order of their ids. What acts
-/// along the coordinates of a joint (drive_row.hpp) has rows behind those of its parts: each is one
-/// scalar problem with the compliance that the parts leave, so that a motor does not fight its own
-/// hinge; where there are several they are solved one after the other until that is done.
+/// Joints in the sub-steps of the realtime solver, by RATTLE (Andersen 1983): impulses along the
+/// Jacobian at the start of the sub-step make its end satisfy the joint; then impulses along the
+/// Jacobian at its end make velocities satisfy it. Both are warm-started separately. In ordinary
+/// islands the impulses that correct earlier position errors are not warm-started: they would
+/// integrate the error that unconverged sweeps leave, and excite slow modes of a mechanism without
+/// bound. Rows of one joint are solved together, joints one after the other in the order of their
+/// ids. What acts along the coordinates of a joint (drive_row.hpp) has rows behind the kept ones:
+/// each is one scalar problem with the compliance that the kept rows leave, so that a motor does
+/// not work against its own hinge; several of them are solved one after the other, in a few sweeps.
 
-/// Appends the rows of what acts along the coordinates of a joint; those of the island begin at
-/// `first`.
+/// Appends the rows of what acts along the coordinates of a joint; the rows of its island begin at
+/// index `first`.
 void add_drives(const Joint& from, size_t first, JointBlock& joint, std::vector<DriveRow>& drives);
 
-/// Fills the blocks, which come with a, b and source set; bodies are prepared.
+/// Fills in the blocks, which come with a, b and source set; bodies must be prepared.
 void prepare_joints(const SolverContext& context, const SolverIsland& island, double hs);
-/// Rows and effective masses at the present poses and velocities.
+/// Computes rows and effective masses at the present poses and velocities.
 void refresh_joints(const SolverContext& context, const SolverIsland& island, double hs);
 
-/// Starts a pass: the force laws of the coordinates, and the impulses of the sub-step before, but
-/// for bodies that turn too far (tolerances.hpp).
+/// Starts a pass: sets the force laws of coordinates and applies the impulses of the previous
+/// sub-step, except where bodies turn too far (max_turn_per_substep).
 void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
-/// The sweeps of a precise island before the bodies move, and after it. Before it all of them work
-/// off errors and are remembered: so many leave little of any mode.
+/// The sweeps of a precise island before the bodies move, and after it. Before it all sweeps are
+/// correcting ones, and their impulses are warm-started: so many sweeps leave little of any mode.
 void move_onto_joints(const SolverIsland& island, double hs);
 void relax_joints(const SolverIsland& island, double hs);
 
-// What these are made of, for islands of which only a part is in these rows.
+// The parts of these, for islands of which only some joints are solved here.
 
-/// Some sweeps of a pass.
+/// A range of the sweeps of a pass.
 void sweep_joints(const SolverIsland& island, double hs, JointPass pass, JointSweeps which);
-/// Adds the impulses before the bodies moved (`moving`), or after that, to JointBlock::sum, by the
-/// rows that they went along.
+/// Adds the impulses before the bodies moved (pass `moving`), or those after it, to
+/// JointBlock::sum, along the rows with which they were applied.
 void sum_joints(const SolverIsland& island, double hs, JointPass pass);
-/// How softly joints of precise islands close for sub-steps of `hs`.
+/// Softness with which joints of precise islands close in sub-steps of `hs`.
 Softness joint_softness(double hs);
-/// Writes the impulses back to the joints, and their sums; gives the greatest velocity left in a
+/// Writes the impulses and their sums back to the joints; returns the greatest velocity left in a
 /// row [m/s, rad/s].
 double store_joints(const SolverContext& context, const SolverIsland& island, double hs);
 

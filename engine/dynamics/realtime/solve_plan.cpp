@@ -24,7 +24,7 @@ uint8_t flags_of(const RigidBody& body, double h) {
   return flags;
 }
 
-/// Contact points, a joint counted as two.
+/// Size of an island: contact points plus twice the joints.
 size_t work_of(const Island& island) {
   return island.points + 2 * size_t(island.joint_end - island.joint_begin);
 }
@@ -62,7 +62,7 @@ void SolvePlans::read_bodies(const SolverContext& c, const IslandSet& islands, C
   });
 }
 
-/// Whether a contact gives way too much in ordinary sub-steps.
+/// Whether a contact yields too much in ordinary sub-steps.
 bool SolvePlans::sinks(const IslandSet& islands, const Island& island, double substep) const {
   for (uint32_t k = island.contact_begin; k < island.contact_end; ++k) {
     const IslandSet::Ends& ends = islands.ends[islands.contacts[k]];
@@ -75,7 +75,7 @@ bool SolvePlans::sinks(const IslandSet& islands, const Island& island, double su
       pull = std::max(pull, double(t->pull));
       radius = std::min(radius, double(t->inner_radius));
     }
-    // Without weight nothing sinks, and what matters is how bodies meet.
+    // Without weight nothing sinks, and impacts decide: precise.
     if (!(pull > 0) || ratio * pull * substep * substep > tolerances::allowed_sink * radius)
       return true;
   }
@@ -94,7 +94,7 @@ bool SolvePlans::hangs_heavily(const SolverContext& c, const IslandSet& islands,
   return false;
 }
 
-/// By how fast things pass and how stiff springs are.
+/// Sub-steps for an island with springs, by its speeds and the stiffness of its springs.
 int SolvePlans::spring_substeps(const SolverContext& c, const IslandSet& islands,
                                 const Island& island) const {
   double speed = 0, shortest = std::numeric_limits<double>::infinity(), stiffest = 0;
@@ -102,7 +102,7 @@ int SolvePlans::spring_substeps(const SolverContext& c, const IslandSet& islands
     const SolvedSpring& spring = c.springs[k];
     const SpringMotion motion = spring_motion(spring, c.bodies);
     stiffest = std::max(stiffest, spring.stiffness * motion.mobility);
-    if (spring.rest_length == 0) continue;  // it resists bending, or is as good as without length
+    if (spring.rest_length == 0) continue;  // resists bending, or has no length at rest
     speed = std::max(speed, motion.rate.norm());
     shortest = std::min(shortest, spring.rest_length);
   }
@@ -203,7 +203,7 @@ void SolvePlans::ByIsland::sort(const IslandSet& islands, size_t count, const F&
 
 void SolvePlans::make(const SolverContext& c, const IslandSet& islands, Crew& crew) {
   read_bodies(c, islands, crew);
-  // Each is in the island of its first body that is in any: links made these one island.
+  // Each belongs to the island of its first body that is in any: links made its bodies one island.
   const auto in_island = [&](uint32_t slot) {
     return slot != no_body && islands.island_of[slot] != 0;
   };

@@ -10,64 +10,67 @@
 
 namespace tumble {
 
-/// What decides how the bodies of an island are solved, read once a tick.
+/// Properties of a body that decide how its island is solved, read once per tick.
 struct BodyTraits {
   static constexpr uint8_t dynamic = 1, kinematic = 2;
-  static constexpr uint8_t fast = 4;      ///< turns so fast, or is so slender, that arms follow it
-  static constexpr uint8_t careful = 8;   ///< turns in double precision and with steps of its own
+  /// Turns so fast, or is so slender, that lever arms must follow it.
+  static constexpr uint8_t fast = 4;
+  static constexpr uint8_t careful = 8;  ///< is integrated in double precision, in steps of its own
   static constexpr uint8_t precise = 16;  ///< RigidBody::precise
-  uint8_t flags = 0;                      ///< 0 of fixed and sleeping bodies
-  uint16_t contacts = 0;                  ///< of dynamic bodies, in its island; at most 65,535
-  float mass = 0;                         ///< [kg]
-  float inner_radius = 0;                 ///< [m]
-  float pull = 0;                         ///< of gravity [m/s2]
+  uint8_t flags = 0;                      ///< 0 for fixed and sleeping bodies
+  uint16_t contacts = 0;   ///< contacts of a dynamic body in its island, at most 65,535
+  float mass = 0;          ///< [kg]
+  float inner_radius = 0;  ///< [m]
+  float pull = 0;          ///< acceleration by gravity [m/s2]
 
   bool is(uint8_t flag) const { return (flags & flag) != 0; }
 };
 
-/// What is solved in one go by the bundles, so that what an island comes to is the same whichever
-/// other islands there are: these loops ask once for all islands of a sort, not for each.
+/// Islands that WideIsland solves together are all of one sort. Decisions that are made once for
+/// all of them depend only on the sort, so that the result of an island does not depend on which
+/// others there are.
 enum class WideSort : uint8_t {
-  plain,             ///< contacts only, all of them in bundles
-  contacts,          ///< contacts only, some of them by the scalar rows
+  plain,             ///< contacts only, all in bundles
+  contacts,          ///< contacts only, some solved by the scalar rows
   jointed,           ///< joints and contacts
   jointed_bouncing,  ///< joints, and contacts with restitution
   joints,            ///< joints only
 };
 constexpr size_t wide_sorts = 5;
 
-/// How an island is solved: by itself and by settings, never by what else is in the world.
+/// How an island is solved. Depends on the island and on settings, never on what else is in the
+/// world.
 ///
 /// Ordinary islands take RealtimeSettings::substeps sub-steps, in bundles and single precision.
 /// Precise ones are solved in double precision with as many sub-steps, up to max_substeps, and as
-/// many sweeps over their joints as are affordable for one of that size. Precise are
-/// - those for which it costs next to nothing,
-/// - those that the settings, or a body of them, ask to be,
-/// - without joints: where a body would sink into another, in sub-steps of the ordinary length, by
-///   a noticeable share of its inner radius. A soft contact gives way by g h^2 times the masses
-///   that it carries over its own, so these are small things, thin ones, and light ones below heavy
-///   ones; and where nothing has weight,
-/// - with joints: where a heavy body hangs on a light one, and where coordinates are coupled,
-/// - with springs that are solved together with contacts: as many sub-steps as what moves and how
-///   stiff the springs are ask for, whatever the size.
+/// many sweeps over their joints as their size allows. An island is precise if
+/// - it is small, so that this costs next to nothing;
+/// - the settings, or one of its bodies, ask for it;
+/// - it has no joints, and in sub-steps of the ordinary length a body would sink into another by a
+///   noticeable share of its inner radius. A soft contact yields by g h^2 times the ratio of the
+///   carried mass to the body's own, so these are small or thin bodies, or light ones below heavy
+///   ones; or there is no weight;
+/// - it has joints, and a heavy body hangs on a light one, or coordinates are coupled;
+/// - it has springs that are solved together with contacts: then it takes as many sub-steps as its
+///   motion and the stiffness of the springs demand, whatever its size.
 struct SolvePlan {
   int substeps = 1;
-  int joint_sweeps = 1;  ///< before the bodies move, and after it
+  int joint_sweeps = 1;  ///< in each pass, before the bodies move and after it
   bool wide = false;     ///< ordinary: solved by WideIsland
   WideSort sort = WideSort::plain;
 };
 
-/// Sub-steps for a precise island with this many contact points, a joint counted as two.
+/// Sub-steps for a precise island of this size: its contact points plus twice its joints.
 int precise_substeps(size_t work, const RealtimeSettings& settings);
-/// Sweeps over the joints of a precise island, several in small ones, which is what lets chains
-/// hold.
+/// Sweeps over the joints of a precise island; several in small ones, so that chains do not
+/// stretch.
 int precise_joint_sweeps(size_t joints);
 
-/// Whether a point of the contact is not on a round surface of the body: a ball's lever arms do not
-/// turn with it, its surface rolls under them.
+/// Whether the lever arms of a contact turn with body A (or B). Those on a round surface do not:
+/// the surface rolls under the contact.
 bool turns_arms(const Contact& contact, bool of_a);
 
-/// The plans of all islands of a tick. Memory is kept.
+/// The plans of all islands of a tick. Memory is reused.
 class SolvePlans {
  public:
   void make(const SolverContext& context, const IslandSet& islands, Crew& crew);
@@ -95,16 +98,17 @@ class SolvePlans {
   std::vector<BodyTraits> traits_;
   std::vector<SolvePlan> plans_;
   std::array<std::vector<uint32_t>, wide_sorts> wide_;
-  /// Numbers of things that islands share out among them.
+  /// Indices of things (couplings, springs), each of which belongs to one island.
   class ByIsland {
    public:
-    /// Of `count` things; slot_of(k) is a body of the island that has thing k, or no_body.
+    /// Sorts `count` things by island; slot_of(k) is a body of the island that has thing k, or
+    /// no_body.
     template <class F>
     void sort(const IslandSet& islands, size_t count, const F& slot_of);
     std::span<const uint32_t> of(uint32_t island) const;
 
    private:
-    std::vector<uint32_t> things_, first_;  ///< empty where there are none
+    std::vector<uint32_t> things_, first_;  ///< empty if there are none
   };
   ByIsland couplings_, springs_;
 };

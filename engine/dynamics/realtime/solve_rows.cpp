@@ -23,14 +23,14 @@ struct Pair {
     to_b.w = wb;
   }
   Vec3 slip(const PointRow& p) const { return vb + wb.cross(p.rb) - va - wa.cross(p.ra); }
-  /// Impulse P on B and -P on A.
+  /// Applies an impulse P on B and -P on A.
   [[gnu::always_inline]] void push(const PointRow& p, const Vec3& P) {
     va -= a.inverse_mass * P;
     wa -= a.inverse_inertia * p.ra.cross(P);
     vb += b.inverse_mass * P;
     wb += b.inverse_inertia * p.rb.cross(P);
   }
-  /// Impulse of a torque T on B and -T on A.
+  /// Applies an impulsive torque T on B and -T on A.
   void twist(const Vec3& T) {
     wa -= a.inverse_inertia * T;
     wb += b.inverse_inertia * T;
@@ -61,7 +61,7 @@ void solve_friction(const ContactRow& row, PointRow& p, Pair& pair) {
   pair.push(p, P);
 }
 
-/// About t1, t2, n in world axes.
+/// From components about t1, t2, n to world axes.
 Vec3 along_axes(const ContactRow& row, const Vec3& v) {
   return v.x() * row.t1 + v.y() * row.t2 + v.z() * row.n;
 }
@@ -121,7 +121,8 @@ namespace {
 
 void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,
                        double push_out_speed, bool bias) {
-  // Round surfaces keep their distance while they turn: only the core inside carries anchors.
+  // The gap of round surfaces does not change as they turn: only the part of the arms inside the
+  // rounding turns.
   const double rolled = row.rounding_a * row.n.dot(pair.a.turn * row.n) +
                         row.rounding_b * row.n.dot(pair.b.turn * row.n);
   for (uint32_t i = row.first; i < row.first + row.count; ++i)
@@ -145,12 +146,13 @@ void solve_rows(const SolverIsland& island, double hs, double push_out_speed, bo
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
     Pair pair(a, b);
-    // Friction first: what must not penetrate has the last word.
+    // Friction first, so that normal impulses have the last word on overlap.
     solve_all_friction(island, row, pair);
     if (row.resists_turning && bias) solve_turning(island, row, pair);
     solve_all_normals(island, row, pair, hs, push_out_speed, bias);
-    // With what the sub-step ends: torques bounded by the load that the points have now. That of
-    // the sweep with bias lacks what a body sinks in by, which would be lost for good.
+    // Here torques are bounded by the normal impulses at the end of the sub-step. Those of the
+    // sweep with bias are too small while a soft contact yields, and friction would be too small as
+    // well.
     if (row.resists_turning && !bias) solve_turning(island, row, pair);
     pair.write(a, b);
   }
@@ -179,7 +181,8 @@ void sum_impulses(const SolverIsland& island) {
 
 namespace {
 
-/// Kinetic energy lost since the start of the tick [J]; of fixed and kinematic bodies none.
+/// Kinetic energy that a body lost since the start of the tick [J]; 0 for fixed and kinematic
+/// bodies.
 double lost_energy(const SolverContext& c, const SolverBody& body, const SolverMotion& motion) {
   if (!motion.dynamic) return 0;
   const RigidBody& source = c.bodies[motion.slot];
@@ -188,7 +191,7 @@ double lost_energy(const SolverContext& c, const SolverBody& body, const SolverM
          0.5 * (source.mass * body.v.squaredNorm() + w.dot(source.inertia_body * w));
 }
 
-/// Greatest impulse that gives back no more than `energy` where the bodies part with speed `v`.
+/// The greatest impulse that returns at most `energy` to bodies that separate at speed `v`.
 double bounce_limit(double mass, double v, double energy) {
   return mass * (std::sqrt(v * v + 2 * std::max(energy, 0.0) / mass) - v);
 }
@@ -206,16 +209,16 @@ double apply_restitution(const SolverContext& c, const SolverIsland& island) {
       Pair pair(a, b);
       const double apart = row.n.dot(pair.slip(p));
       double push = -p.normal_mass * (apart - p.bounce);
-      // What springs took of the approach in the tick they give back themselves.
+      // Springs return by themselves what they took of the energy of the approach.
       if (row.spins || !island.springs.empty())
         push = std::min(push, bounce_limit(p.normal_mass, apart,
                                            lost_energy(c, a, island.motions[row.a]) +
                                                lost_energy(c, b, island.motions[row.b])));
-      // What joints made too much of is taken back, as long as the blow does not pull.
+      // Impulses that joints made too large are reduced, but the contact never pulls.
       push = std::max(push, -p.rebound);
       if (push == 0) continue;
       pair.push(p, push * row.n);
-      // The blow is over: it counts in the sum and is no part of the next tick's warm start.
+      // The impulse of restitution counts in the sum, but not in the next warm start.
       p.normal_sum += push;
       p.rebound += push;
       pair.write(a, b);

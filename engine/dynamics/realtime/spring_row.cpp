@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Lever arm of an end at the present orientation; none of the world.
+/// Lever arm of an end at the present orientation; zero for an end in the world.
 Vec3 arm_now(const SolverContext& c, const SolverBody& body, const SolvedSpring::End& end) {
   if (end.slot == no_body) return Vec3::Zero();
   const Vec3 arm = c.bodies[end.slot].pose.direction(end.point);
@@ -27,7 +27,7 @@ Vec3 extent(const SolverContext& c, const SolverIsland& island, const SpringRow&
   return q;
 }
 
-/// Of q, with the present velocities.
+/// Rate of q with the present velocities.
 Vec3 rate(const SolverIsland& island, const SpringRow& row) {
   Vec3 u = Vec3::Zero();
   for (uint32_t i = 0; i < row.count; ++i) u += row.weight[i] * island.bodies[row.body[i]].v;
@@ -38,7 +38,7 @@ Vec3 rate(const SolverIsland& island, const SpringRow& row) {
   return u;
 }
 
-/// Impulse -w_i P on each end.
+/// Applies the impulse -w_i P to each end.
 void push(const SolverIsland& island, const SpringRow& row, const Vec3& P) {
   for (uint32_t i = 0; i < row.count; ++i) {
     SolverBody& body = island.bodies[row.body[i]];
@@ -52,8 +52,8 @@ void push(const SolverIsland& island, const SpringRow& row, const Vec3& P) {
   }
 }
 
-/// What the sweeps use, from E = along n n^T + across (1 - n n^T) and the impulse along n that the
-/// present length asks for.
+/// Sets what the sweeps use, from E = along n n^T + across (1 - n n^T) and the impulse `aim` along
+/// n that the present length gives.
 void set_response(const SolverContext& c, const SolverIsland& island, double along, double across,
                   double aim, SpringRow& row) {
   row.mobility = 0;
@@ -128,7 +128,7 @@ void prepare_springs(const SolverContext& c, const SolverIsland& island) {
     for (uint32_t i = 0; i < row.count; ++i) {
       const SolvedSpring::End& end = spring.end[i];
       row.start += end.weight * (end.slot == no_body ? end.point : c.bodies[end.slot].pose.x);
-      // Of a body that does not turn, for good.
+      // Fixed for a body that does not turn.
       if (end.slot != no_body && row.turns == SpringRow::none)
         row.start += end.weight * c.bodies[end.slot].pose.direction(end.point);
     }
@@ -138,12 +138,12 @@ void prepare_springs(const SolverContext& c, const SolverIsland& island) {
 
 namespace {
 
-/// Stiffness across the line, of one that is stretched [N/m].
+/// Transverse stiffness of a stretched spring [N/m].
 double stiffness_across(const SpringRow& row, double length) {
   return length > row.rest_length ? row.stiffness * (1 - row.rest_length / length) : 0;
 }
 
-/// By solver body, how fast its springs make it swing across their lines: the sum of k/m [1/s2].
+/// By solver body: sum of transverse stiffness over mass of its springs [1/s2].
 std::span<const double> swings_across(const SolverIsland& island) {
   thread_local std::vector<double> sums;
   sums.assign(island.bodies.size(), 0);
@@ -156,10 +156,10 @@ std::span<const double> swings_across(const SolverIsland& island) {
   return sums;
 }
 
-/// Pushes with the share of the guessed impulses P that is nearest to the solution: springs alone
-/// have the least of P A P / 2 - P u + |P|^2 / 2e - P a / e, A being what impulses change of the
-/// rates u, a what lengths ask for and e what rates do. `gains` and `costs` are the sums of P a / e
-/// and |P|^2 / e. So no guess is worse than none, however far the springs have gone on since.
+/// Applies the share of the guessed impulses P that is nearest to the solution. Springs alone
+/// minimise P A P / 2 - P u + |P|^2 / 2e - P a / e, where A P is the change of the rates u, a the
+/// impulses that lengths give and e those per rate; `gains` and `costs` are the sums of P a / e and
+/// |P|^2 / e. So the start is never worse than none, however much the springs have moved since.
 void start_from_guess(const SolverIsland& island, double gains, double costs) {
   for (const SpringRow& row : island.springs) {
     const double along = row.impulse.dot(rate(island, row));
@@ -183,7 +183,7 @@ void start_springs(const SolverContext& c, const SolverIsland& island, double hs
   for (SpringRow& row : island.springs) {
     const double length = row.q.norm(), k = row.stiffness;
     if (length > 0) row.n = row.q / length;
-    // Without a length a spring that has one at rest has no direction to push in.
+    // A spring of zero length that has a rest length has no direction of force.
     const bool acts = length > 0 || row.rest_length == 0;
     const double aim = acts ? hs * k * (length - row.rest_length) : 0;
     const double along = acts ? hs * (hs * k + row.damping) : 0;
@@ -199,7 +199,7 @@ void start_springs(const SolverContext& c, const SolverIsland& island, double hs
       for (uint32_t i = 0; i < row.count; ++i) z += hs * hs * swings[row.body[i]];
       across *= std::max(0.0, 1 - 1 / z);
     } else {
-      across = k;  // the same whatever the direction
+      across = k;  // the same in all directions
     }
     set_response(c, island, along, hs * hs * across, aim, row);
   }

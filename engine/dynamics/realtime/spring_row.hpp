@@ -9,69 +9,72 @@
 namespace tumble {
 
 /// A damped spring, or a resistance to bending, that is solved together with contacts and joints.
-/// Its length is that of q = sum_i w_i x_i over its ends, of weights that add up to nothing; end i
-/// gets the impulse -w_i P. A spring has the weights -1 and 1, bending a rest length of 0.
+/// Its length is that of q = sum_i w_i x_i over its ends, with weights whose sum is zero; end i
+/// gets the impulse -w_i P. A spring has the weights -1 and 1; bending has a rest length of 0.
 struct SolvedSpring {
   static constexpr uint32_t most_ends = 4;
   struct End {
-    uint32_t slot = no_body;     ///< of a body; `no_body`: the world
-    Vec3 point = Vec3::Zero();   ///< from its centre of mass, body axes; of the world, its axes [m]
+    uint32_t slot = no_body;  ///< slot of a body; `no_body`: fixed in the world
+    /// Relative to the centre of mass, body axes; or in the world's axes [m]
+    Vec3 point = Vec3::Zero();
     double weight = 0;           ///< [-]
-    Vec3 moment = Vec3::Zero();  ///< that it got over the step, about the centre of mass [N m s]
+    Vec3 moment = Vec3::Zero();  ///< angular impulse over the step about the centre of mass [N m s]
   };
   std::array<End, most_ends> end;
-  uint32_t count = 0;                                  ///< of the ends
+  uint32_t count = 0;                                  ///< number of ends
   double stiffness = 0, damping = 0, rest_length = 0;  ///< [N/m], [N s/m], [m]
-  // Over the step.
+  // Results over the step.
   Vec3 impulse = Vec3::Zero();  ///< P [N s]
-  Vec3 elastic = Vec3::Zero();  ///< the part of it that the potential explains [N s]
+  Vec3 elastic = Vec3::Zero();  ///< the part of P that comes from the elastic potential [N s]
 
   void add(uint32_t slot, const Vec3& point, double weight) {
     end[count++] = {slot, point, weight, Vec3::Zero()};
   }
 };
 
-/// How the ends of a spring lie, move and give way.
+/// Extent, motion and mobility of a spring's ends.
 struct SpringMotion {
   Vec3 q = Vec3::Zero();     ///< [m]
   Vec3 rate = Vec3::Zero();  ///< of q [m/s]
-  double mobility = 0;       ///< change of the rate by an impulse but for what arms turn [1/kg]
+  double mobility = 0;  ///< change of the rate per impulse, without rotation of the bodies [1/kg]
 };
 SpringMotion spring_motion(const SolvedSpring& spring, std::span<const RigidBody> bodies);
 
-/// One of them in the inner loops. Over a sub-step of h seconds it is backward Euler, linearised at
+/// One spring in the inner loops. Over a sub-step of h seconds it is backward Euler, linearised at
 /// its start (Baraff and Witkin, "Large steps in cloth simulation", 1998): with l the length of q
-/// and n its direction then, and u its rate at the end of the sub-step,
+/// and n its direction at the start, and u the rate of q at the end of the sub-step,
 ///   P = h k (l - l0) n + E u,   E = (h^2 k + h c) n n^T + h^2 k_u (1 - n n^T).
-/// k_u is the part of the stiffness across the line of a stretched spring, k (1 - l0/l), that a
-/// sub-step does not resolve: its share 1 - 1/z where z > 1, z being h^2 times the sum of such
-/// stiffness over mass of all springs at its ends (as in SpringNet). What is resolved goes along
-/// the line alone, which leaves angular momentum as it is. An impulse changes the rate by -W P, W
-/// being what the ends yield: the one that fulfils this is
+/// k_u is the part of the transverse stiffness of a stretched spring, k (1 - l0/l), that a sub-step
+/// does not resolve: its share 1 - 1/z if z > 1, where z is h^2 times the sum of transverse
+/// stiffness over mass of all springs at its ends (as in SpringNet). The resolved part acts along
+/// the line of the spring only, which conserves angular momentum. An impulse changes the rate by
+/// -W P, with W the mobility of the ends, so that the solution is
 ///   P = (1 + E W)^-1 (h k (l - l0) n + E (u + W P_before)).
 struct SpringRow {
   static constexpr uint32_t none = ~uint32_t{0};
   std::array<uint32_t, SolvedSpring::most_ends> body{};  ///< solver bodies
   std::array<double, SolvedSpring::most_ends> weight{};
   uint32_t count = 0;
-  uint32_t source = 0;                                 ///< SolverContext::springs
-  uint32_t turns = none;                               ///< SpringTurn of one that turns a body
+  uint32_t source = 0;    ///< index in SolverContext::springs
+  uint32_t turns = none;  ///< index of its SpringTurn, if it turns a body
   double stiffness = 0, damping = 0, rest_length = 0;  ///< SolvedSpring
-  Vec3 start = Vec3::Zero();  ///< q at the start of the step but for arms that turn [m]
-  Vec3 q = Vec3::Zero();      ///< now [m]
-  Vec3 n = Vec3::UnitX();     ///< along q at the start of the sub-step
-  Vec3 aim = Vec3::Zero();    ///< (1 + E W)^-1 h k (l - l0) n [N s]
-  /// (1 + E W)^-1 E along n and across it, and W, of one that turns none [kg], [1/kg].
+  /// Constant part of q at the start of the step, without arms that turn [m]
+  Vec3 start = Vec3::Zero();
+  Vec3 q = Vec3::Zero();    ///< at present [m]
+  Vec3 n = Vec3::UnitX();   ///< direction of q at the start of the sub-step
+  Vec3 aim = Vec3::Zero();  ///< (1 + E W)^-1 h k (l - l0) n [N s]
+  /// If it turns no body: (1 + E W)^-1 E along n and across it [kg], and W [1/kg].
   double along = 0, across = 0, mobility = 0;
-  Vec3 impulse = Vec3::Zero();                      ///< P of the sub-step [N s]
-  Vec3 change = Vec3::Zero();                       ///< of P by the last sweep [N s]
-  Vec3 step = Vec3::Zero();                         ///< direction of accelerate_springs [N s]
-  Vec3 sum = Vec3::Zero(), elastic = Vec3::Zero();  ///< of the sub-steps so far: SolvedSpring
+  Vec3 impulse = Vec3::Zero();  ///< P of the sub-step [N s]
+  Vec3 change = Vec3::Zero();   ///< change of P in the last sweep [N s]
+  Vec3 step = Vec3::Zero();     ///< search direction of accelerate_springs [N s]
+  /// Over the sub-steps so far, as in SolvedSpring.
+  Vec3 sum = Vec3::Zero(), elastic = Vec3::Zero();
 };
 
-/// What a spring needs besides that turns a body.
+/// What a spring that turns a body needs besides.
 struct SpringTurn {
-  std::array<Vec3, SolvedSpring::most_ends> arm;  ///< of its ends, world axes [m]
+  std::array<Vec3, SolvedSpring::most_ends> arm;  ///< lever arms of its ends, world axes [m]
   Mat3 follows = Mat3::Zero();                    ///< (1 + E W)^-1 E [kg]
   Mat3 yields = Mat3::Zero();                     ///< W [1/kg]
 };
@@ -79,23 +82,23 @@ struct SpringTurn {
 struct SolverContext;
 struct SolverIsland;
 
-/// Fills the rows, which come with bodies, weights, count, source and turns set.
+/// Fills in the rows, which come with body, weight, count, source and turns set.
 void prepare_springs(const SolverContext& context, const SolverIsland& island);
-/// Makes ready for a sub-step of `hs` seconds, and starts from a share of the impulses of the one
-/// before; in the first from those that the lengths ask for.
+/// Prepares a sub-step of `hs` seconds, and applies a share of the impulses of the previous one; in
+/// the first sub-step of those that the present lengths give.
 void start_springs(const SolverContext& context, const SolverIsland& island, double hs, bool first);
-/// One sweep over the springs of an island, there or back. Gives by how much impulses changed, as
-/// the sum of their squares in the norm of kinetic energy [J].
+/// One sweep over the springs of an island, forwards or backwards. Returns the change of impulses
+/// as the sum of their squares in the norm of kinetic energy [J].
 double sweep_springs(const SolverIsland& island, bool back);
-/// After a sweep that changed impulses by `share` of what the one before did (sweep_springs): goes
-/// on in the conjugate direction, as nonlinear conjugate gradients do with a sweep as
-/// preconditioned gradient (M. Silcowitz-Hansen, S. Niebe and K. Erleben, "A nonsmooth nonlinear
-/// conjugate gradient method for interactive contact force problems", 2010), or starts anew where
-/// it has grown.
+/// To be called after a sweep whose change was `share` of that of the sweep before (sweep_springs).
+/// Adds a step along the conjugate direction, by the nonlinear conjugate gradient method with a
+/// sweep as preconditioned gradient (M. Silcowitz-Hansen, S. Niebe and K. Erleben, "A nonsmooth
+/// nonlinear conjugate gradient method for interactive contact force problems", 2010), or restarts
+/// it where the change has grown.
 void accelerate_springs(const SolverIsland& island, double share);
-/// When positions have moved: adds the impulses of the sub-step to those of the step.
+/// After positions moved: adds the impulses of the sub-step to those of the step.
 void sum_springs(const SolverContext& context, const SolverIsland& island, double hs);
-/// Writes these back.
+/// Writes the sums back.
 void store_springs(const SolverContext& context, const SolverIsland& island);
 
 }  // namespace tumble

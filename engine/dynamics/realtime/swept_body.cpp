@@ -16,7 +16,8 @@ bool winds(const RigidBody& body, double h) {
 
 Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
   Motion m = Motion::between(start, body.pose, 0, h);
-  // More than half a turn looks like less: the angular velocity knows.
+  // The shorter rotation between the poses is wrong beyond half a turn; the angular velocity is
+  // not.
   if (winds(body, h)) m.omega = body.omega;
   return m;
 }
@@ -24,7 +25,8 @@ Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
 double way_of(const RigidBody& body, const Pose& start, double h) {
   const double straight = (body.pose.x - start.x).norm();
   if (winds(body, h)) return straight + 2 * body.bounding_radius;
-  // The angle is 2 asin(sine) <= pi sine, and no point turns farther than twice its distance.
+  // The angle is 2 asin(sine) <= pi sine, and no point moves farther by rotation than twice its
+  // distance.
   const double sine = (body.pose.q * start.q.conjugate()).vec().norm();
   return sine == 0 ? straight : straight + std::min(3.2 * sine, 2.0) * body.bounding_radius;
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double no_contact_time = std::numeric_limits<double>::infinity();
 
-/// The part [t0, t1] of the motion of a shape on a body that comes to rest at `stop`, which lies
-/// outside or at an end; `offset` is the shape's frame relative to the body's centre.
+/// The section [t0, t1] of the motion of a shape on a body that stops at time `stop`, which is not
+/// inside the section; `offset` is the shape's frame relative to the body's centre.
 Motion motion_section(const Motion& m, double stop, double t0, double t1, const Pose& offset) {
   Motion out = t0 < stop ? m : Motion::at_rest(m.carrier(stop), t0, t1);
   if (t0 < stop) out.start = m.carrier(t0);
@@ -23,15 +23,16 @@ Motion motion_section(const Motion& m, double stop, double t0, double t1, const 
   return out;
 }
 
-/// How two shapes are to each other at one time.
+/// The relation of two shapes at one time.
 struct Look {
   bool touch = false;
-  double depth = 0;                                ///< greatest overlap; 0 when they are apart [m]
-  double closing = 0;                              ///< bound on how fast it grows [m/s]
-  Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();  ///< where they are nearest
+  double depth = 0;    ///< greatest overlap; 0 when they are apart [m]
+  double closing = 0;  ///< bound on the rate at which it grows [m/s]
+  /// Where the overlap is deepest, or they are nearest.
+  Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();
 };
 
-/// The way of a pair through the tick.
+/// The motion of a pair through the tick.
 class Sweep {
  public:
   Sweep(const SweptPair& pair, double h) : p_(pair), h_(h) {
@@ -44,7 +45,7 @@ class Sweep {
       const double end = section_end();
       const TimeOfContact hit = next_contact(end);
       const bool ahead = hit.hit() && hit.time > t_;
-      // What cannot be timed is looked at.
+      // If no time of contact is found, the pair is tested like a touching one.
       const bool timed = ahead || hit.status == TimeOfContactStatus::separated;
       if (!timed && !now_.touch) {
         now_.touch = true;
@@ -60,7 +61,7 @@ class Sweep {
       }
       if (!ahead || t_ < until) continue;
       if (approach(hit) * (h_ - t_) > p_.allowed) return {t_};
-      // Shallow contacts are passed by with open eyes.
+      // A shallow contact does not stop the pair, which is then tested like a touching one.
       now_.touch = true;
       now_.closing = std::max(now_.closing, closing_along(hit.normal));
     }
@@ -86,7 +87,7 @@ class Sweep {
     return end;
   }
 
-  /// Bound on how fast the overlap along `n` grows before the next contact that is timed [m/s].
+  /// Bound on the rate at which the overlap along `n` grows before the next computed contact [m/s].
   double closing_along(const Vec3& n) const {
     if (!p_.time_touching) return fastest();
     const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
@@ -100,7 +101,7 @@ class Sweep {
     return (moves_a() ? p_.motion_a.speed_bound(p_.lever_a) : 0) +
            (moves_b() ? p_.motion_b.speed_bound(p_.lever_b) : 0);
   }
-  /// How fast the points that meet come together along the normal [m/s].
+  /// Approach speed along the normal of the points that meet [m/s].
   double approach(const TimeOfContact& hit) const {
     const auto velocity = [&](const Motion& m, const Vec3& x) {
       return (m.velocity + m.omega.cross(x - m.carrier(t_).x));
@@ -109,7 +110,7 @@ class Sweep {
            (moves_b() ? hit.normal.dot(velocity(p_.motion_b, hit.on_b)) : 0);
   }
 
-  /// Goes to time t and looks.
+  /// Advances to time t and runs the narrow phase.
   void see(double t) {
     t_ = t;
     now_ = {};
@@ -132,7 +133,7 @@ class Sweep {
     }
   }
 
-  /// Goes on while the two touch, at most to `until`; false when they must be stopped now.
+  /// Advances while the two touch, at most to `until`; false when they must be stopped now.
   bool walk(double until) {
     while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
@@ -166,7 +167,7 @@ void stop_approach(RigidBody& a, RigidBody& b, const Vec3& at, const Vec3& norma
   const double speed = normal.dot(a.velocity_at(at) - b.velocity_at(at));
   if (!(speed > 0)) return;
   const auto gives_way = [](const RigidBody& body) { return body.dynamic() && body.awake(); };
-  const auto turn = [&](const RigidBody& body) {  // of a unit impulse
+  const auto turn = [&](const RigidBody& body) {  // change of angular velocity per impulse
     return (body.inverse_inertia_world() * (at - body.pose.x).cross(normal));
   };
   double mobility = 0;

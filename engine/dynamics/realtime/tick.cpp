@@ -79,7 +79,7 @@ void RealtimeTick::sweep(double part, const RealtimeSettings& tuning) {
         continuous.apply(bodies, path_broad_phase, part, tuning, crew, continuous_methods);
   }
   roster.add(continuous.woken());
-  // Else nothing was moved.
+  // Otherwise nothing was moved.
   if (report.continuous.fast + report.continuous.carried > 0) listener.put_back();
 }
 
@@ -88,7 +88,7 @@ void RealtimeTick::sleep() {
   update_sleeping(bodies, islands, gravity.norm(), h, settings, sleep_scratch, &crew);
 }
 
-/// From the pairs to new poses, over the tick or one part of it.
+/// The stages from contacts to new poses, over the tick or one part of it.
 Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   find_contacts(part, tuning);
   if (stop_requested()) return stopped_error();
@@ -102,7 +102,7 @@ Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   return {};
 }
 
-/// The whole tick of what can move, in equal parts; the pairs of the first are known.
+/// The whole tick of all movable bodies in equal parts; the pairs of the first part are known.
 Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
@@ -139,9 +139,9 @@ Status RealtimeTick::group_tick(TickParts& parts, int number) {
   return {};
 }
 
-/// One number of parts after the other, what has another standing still.
+/// Runs one number of parts after the other, while bodies with another one stand still.
 Status RealtimeTick::by_groups(TickParts& parts) {
-  roster.forget();  // bodies are changed besides those that move
+  roster.forget();  // other bodies than those that move are changed
   KinematicPaths kinematic(bodies, roster.active());
   IslandSet all_islands;
   TickReport sum;

@@ -20,59 +20,61 @@ namespace tumble {
 
 class TickParts;
 
-/// What the owner of a tick does between its stages: keep books, move what is no rigid body. Ticks
-/// with fast thin meshes have several parts, and the stages up to put_back() come in each. Where
-/// the ticks of bodies have different numbers of parts, all stages but moved() come for each
-/// number, and what has another one is fixed meanwhile (TickParts).
+/// Work of the owner of a tick between its stages: energy books, and whatever is not a rigid body.
+/// A tick with fast thin meshes has several parts, and the calls up to put_back() come in each of
+/// them. Where bodies have different numbers of parts, all calls but moved() come once for each
+/// number, and bodies with another number are fixed meanwhile (TickParts).
 class TickListener {
  public:
   virtual ~TickListener() = default;
-  virtual void bounds_known() {}  ///< the broad phase has not looked for pairs yet
-  /// Islands have not been made yet. Gives springs that are to be solved with the contacts, between
-  /// bodies that RealtimeTick::links make one island; their forces must not be in the sums.
+  virtual void bounds_known() {}  ///< before the broad phase searches for pairs
+  /// Before islands are built. Returns springs that are to be solved with the contacts, between
+  /// bodies that RealtimeTick::links put in one island; their forces must not be in the sums.
   virtual std::span<SolvedSpring> contacts_known(double /*part*/) { return {}; }
-  virtual void islands_known() {}          ///< the solver has not moved anything yet
-  virtual void solved(double /*part*/) {}  ///< over so many seconds; nothing has been put back yet
-  virtual void put_back() {}               ///< the continuous stage has put something back
-  virtual void slept() {}                  ///< some have been put to sleep
-  virtual void moved() {}                  ///< the tick is over
+  virtual void islands_known() {}  ///< before the solver moves anything
+  /// After the solver moved bodies for so many seconds, before any is moved back.
+  virtual void solved(double /*part*/) {}
+  virtual void put_back() {}  ///< the continuous stage moved bodies back or along
+  virtual void slept() {}     ///< islands were put to sleep
+  virtual void moved() {}     ///< the tick is over
 };
 
-/// What the stages came to; of several parts the last, where it is no sum.
+/// Results of the stages; of several parts the sum where that makes sense, otherwise the last.
 struct TickReport {
-  int parts = 1;                                ///< the greatest number of any body
+  int parts = 1;                                ///< greatest number of parts of any body
   uint64_t bounds_tested = 0, pairs_found = 0;  ///< of the broad phase, summed
-  std::optional<uint32_t> crowded;  ///< where the tick was refused: slot of a body with most pairs
+  /// If the tick was refused because of too many pairs: slot of a body in most of them.
+  std::optional<uint32_t> crowded;
   ContactUpdateStats contacts;
   RealtimeSolveStats solve;
   ContinuousStats continuous;
 
-  /// Adds what the last parts of some of the bodies came to.
+  /// Adds the results of the bodies with one number of parts.
   void add_group(const TickReport& group);
-  /// To what all groups came to, whose contacts these are.
+  /// Sets the results of the whole tick from the sum over all numbers, and all contacts.
   void set_groups(const TickReport& sum, const ContactSet& all);
 };
 
-/// A tick of the realtime stepper for rigid bodies: one list of stages for worlds and for tests of
-/// the stages. Its owner keeps everything that it works on.
+/// A tick of the realtime stepper for rigid bodies: one list of stages for worlds and for tests.
+/// Its owner keeps all the data that it works on.
 struct RealtimeTick {
   const RealtimeSettings& settings;
   Vec3 gravity;  ///< [m/s2]
-  double h;      ///< [s]
+  double h;      ///< length of the tick [s]
 
   BroadPhase& broad_phase;
-  BroadPhase& path_broad_phase;  ///< of the continuous stage, whose bounds differ
+  BroadPhase& path_broad_phase;  ///< for the continuous stage, whose bounds differ
   const ContinuousMethods& continuous_methods;
   NarrowPhase narrow_phase;
-  const HierarchyKind* hierarchy;  ///< of mesh against mesh; null for the default
+  const HierarchyKind* hierarchy;  ///< for mesh against mesh; null for the default
 
-  std::vector<RigidBody>& bodies;  ///< with the forces of the tick
+  std::vector<RigidBody>& bodies;  ///< with the forces of the tick set
   std::span<Joint> joints;
-  std::span<JointCoupling> couplings = {};  ///< of these
+  std::span<JointCoupling> couplings = {};  ///< of these joints
   std::span<const BodyLink> links;
-  std::span<SolvedSpring> springs = {};  ///< TickListener::contacts_known
-  const PairFilter& apart;               ///< who passes through each other
-  Roster& roster;                        ///< refreshed for this tick
+  std::span<SolvedSpring> springs = {};  ///< as TickListener::contacts_known() returned them
+  const PairFilter& apart;               ///< pairs of bodies that pass through each other
+  Roster& roster;                        ///< up to date for this tick
   ProxySet& proxies;
   std::vector<ProxyPair>& pairs;
   ContactSet& contacts;
@@ -84,17 +86,17 @@ struct RealtimeTick {
   Crew& crew;
   Profiler& profiler;
   TickListener& listener;
-  /// Contacts of all that moves far for its size are found anew within the tick, not only of
-  /// meshes.
+  /// Contacts of all bodies that move far for their size, not only of meshes, are found anew within
+  /// the tick.
   bool close = false;
   TickReport report = {};
-  double passed = 0;  ///< of the tick, when a part of it begins [s]
+  double passed = 0;  ///< time of the tick at which the present part begins [s]
 
-  /// All stages; an error where a body stops being finite, where so many bodies are in one place
-  /// that their contacts would fill the memory, or where somebody asks to stop.
+  /// Runs all stages. Error if a body becomes non-finite, if so many bodies are in one place that
+  /// their contacts would fill the memory, or if a stop is requested.
   Status run();
 
-  // The stages, over h seconds of the tick or of a part of it.
+  // The stages, over `part` seconds: the tick or a part of it.
   Status find_pairs(double part);
   void find_contacts(double part, const RealtimeSettings& tuning);
   void group(double part);

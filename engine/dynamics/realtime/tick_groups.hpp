@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// Bodies that stand still as fixed ones, where they are, while it lives.
+/// Makes bodies fixed where they are, during its lifetime.
 class HeldBodies {
  public:
   explicit HeldBodies(std::span<RigidBody> bodies) : bodies_(bodies) {}
@@ -17,7 +17,7 @@ class HeldBodies {
   HeldBodies& operator=(const HeldBodies&) = delete;
 
   void hold(uint32_t slot);
-  /// All dynamic ones whose tick has another number of parts; sleepers that have none are free.
+  /// All dynamic bodies with another number of parts; sleeping ones without a number stay free.
   void hold_others(const TickParts& parts, int number);
 
  private:
@@ -30,16 +30,16 @@ class HeldBodies {
   std::vector<Held> held_;
 };
 
-/// Kinematic bodies go their way from the beginning of the tick for each number of parts; where
-/// they are in the end is where they came by their own.
+/// Lets kinematic bodies move through the tick anew for each number of parts; in the end each is
+/// where its own number of parts took it.
 class KinematicPaths {
  public:
   KinematicPaths(std::span<RigidBody> bodies, std::span<const uint32_t> active);
-  /// Back to the beginning.
+  /// Puts them back to the start of the tick.
   void start();
-  /// After the parts of this number.
+  /// To be called after the parts of this number.
   void keep(const TickParts& parts, int number);
-  /// To the end.
+  /// Puts them to the end of the tick.
   void finish();
 
  private:

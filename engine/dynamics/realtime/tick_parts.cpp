@@ -14,8 +14,8 @@
 namespace tumble {
 namespace {
 
-/// How thin the thinnest shape of a moving body is [m]; infinite for what does not count. A sharp
-/// rim does not count as thin: `thin_of_size` is the least.
+/// Thickness of the thinnest relevant shape of a body [m]; infinity if none is. A sharp rim does
+/// not count as thin: the least is `thin_of_size`.
 double thickness(const RigidBody& body, bool close) {
   double least = std::numeric_limits<double>::infinity();
   if (!body.dynamic()) return least;
@@ -33,7 +33,7 @@ double thickness(const RigidBody& body, bool close) {
   return least;
 }
 
-/// Bound on how fast any two points of the bodies pass each other [m/s].
+/// Bound on the speed of any point of one body relative to the other [m/s].
 double passing_speed(const RigidBody& a, const RigidBody& b) {
   double speed = (a.v - b.v).norm();
   for (const RigidBody* body : {&a, &b})
@@ -41,7 +41,7 @@ double passing_speed(const RigidBody& a, const RigidBody& b) {
   return speed;
 }
 
-/// How many parts a pair asks for.
+/// The number of parts that a pair asks for.
 int parts_for(const TickParts::Tick& tick, const ProxyPair& pair, int most) {
   const RigidBody& a = tick.bodies[tick.proxies.refs[pair.a].body];
   const RigidBody& b = tick.bodies[tick.proxies.refs[pair.b].body];
@@ -53,21 +53,21 @@ int parts_for(const TickParts::Tick& tick, const ProxyPair& pair, int most) {
   return int(std::clamp(wanted, 1.0, double(most)));
 }
 
-/// Calls f(a, b) for all slots of bodies that may act on each other in the tick, neither of which
-/// is the world.
+/// Calls f(a, b) for the slots of all pairs of bodies that may act on each other in the tick,
+/// except for links with the world.
 template <class F>
 void for_neighbours(const TickParts::Tick& tick, const F& f) {
   for (const ProxyPair& pair : tick.pairs)
     f(tick.proxies.refs[pair.a].body, tick.proxies.refs[pair.b].body);
   for (const BodyLink& l : tick.links)
     if (l.a != BodyLink::none) f(l.a, l.b);
-  // Who wakes brings back all contacts of its pile.
+  // A body that wakes brings back all contacts of its pile.
   tick.contacts.for_each_pair([&](const ContactKey& key) { f(key.body_a, key.body_b); });
 }
 
 }  // namespace
 
-/// From what pairs ask for to the numbers of bodies.
+/// Sets the numbers of bodies from those that pairs ask for.
 void TickParts::spread(const Tick& tick, std::span<const int> asked) {
   const std::span<const RigidBody> bodies = tick.bodies;
   DisjointSets sets(bodies.size());
@@ -83,13 +83,13 @@ void TickParts::spread(const Tick& tick, std::span<const int> asked) {
     const ProxyPair& pair = tick.pairs[k];
     const uint32_t a = tick.proxies.refs[pair.a].body, b = tick.proxies.refs[pair.b].body;
     if (!bodies[a].dynamic() && !bodies[b].dynamic()) continue;
-    // One of them moves: a sleeper that a kinematic body may wake has a number too.
+    // Sleeping bodies in pairs have a number too, since a moving body may wake them.
     int& number = of_[sets.root(bodies[a].dynamic() ? a : b)];
     number = std::max(number, asked[k]);
   }
   for (uint32_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].dynamic()) of_[i] = of_[sets.root(i)];
-  // Kinematic bodies tie nothing together, and go their way with the most hurried near them.
+  // Kinematic bodies connect nothing; each gets the greatest number of its dynamic neighbours.
   for_neighbours(tick, [&](uint32_t a, uint32_t b) {
     for (const auto& [body, other] : {std::pair(a, b), std::pair(b, a)})
       if (!bodies[body].dynamic() && bodies[other].dynamic() && is_active(bodies[body]))

@@ -1,4 +1,4 @@
-// Rolling and torsional friction; twin over lanes: solve_turning in wide/contact_kernels.cpp.
+// Rolling and torsional friction; the same over lanes: solve_turning in wide/contact_kernels.cpp.
 #include "engine/dynamics/realtime/turning_row.hpp"
 
 #include <algorithm>
@@ -24,7 +24,8 @@ Vec3 TurningRow::solve(const Vec3& turning, double pressure) {
   double r1 = impulse.x() - (m11 * turning.x() + m12 * turning.y());
   double r2 = impulse.y() - (m12 * turning.x() + m22 * turning.y());
   if (r1 * r1 + r2 * r2 > limit * limit) {
-    // Rolling on: a gradient step, whose fixed point opposes the turning in every direction alike.
+    // Rolling continues: a gradient step, whose fixed point opposes the rolling in every direction
+    // alike.
     r1 = impulse.x() - rolling_mass * turning.x();
     r2 = impulse.y() - rolling_mass * turning.y();
     const double length2 = r1 * r1 + r2 * r2;
@@ -35,7 +36,7 @@ Vec3 TurningRow::solve(const Vec3& turning, double pressure) {
     }
   }
   const double most = torsional * pressure;
-  // A needle at a slant turns about its length by either: the second sees what the first did.
+  // A slanted needle turns about its axis by both torques: the second takes the first into account.
   const double spinning = turning.z() + k13 * (r1 - impulse.x()) + k23 * (r2 - impulse.y());
   const double spin = std::clamp(impulse.z() - torsional_mass * spinning, -most, most);
   const Vec3 next(r1, r2, spin), change = next - impulse;

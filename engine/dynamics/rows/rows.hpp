@@ -6,11 +6,11 @@
 
 namespace tumble {
 
-/// The world, a fixed body: no degrees of freedom.
+/// Stands for the world, or another immovable body without degrees of freedom.
 inline constexpr uint32_t no_block = 0xffffffffu;
 
-/// The degrees of freedom of one body (six) or particle (three: no inertia, no rotation), with its
-/// present velocity. What moves by itself (kinematic bodies) has no inverse mass and a velocity.
+/// The degrees of freedom of one body (six) or particle (three: no rotation, zero inverse inertia),
+/// with its present velocity. Kinematic bodies have a velocity and zero inverse mass.
 struct DofBlock {
   double inverse_mass = 0;              ///< [1/kg]
   Mat3 inverse_inertia = Mat3::Zero();  ///< about the centre of mass, world axes [1/(kg m2)]
@@ -24,14 +24,14 @@ struct RowSide {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-/// A row of the Jacobian J of impulses, contact forces and joints: one scalar relative velocity,
-/// and the direction in which one scalar impulse acts.
+/// A row of a Jacobian J, shared by impulses, contact forces and joints: one scalar relative
+/// velocity, and the direction along which one scalar impulse acts.
 struct Row {
   RowSide a, b;
 };
 
-/// Velocity along `direction` of a point of B relative to the same point of A; arms from the
-/// centres of mass [m].
+/// The row for the velocity along `direction` of a point of B relative to the coinciding point of
+/// A; arms are from the centres of mass to the point [m].
 inline void put_point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
                           const Vec3& direction, Row& out) {
   out.a.block = block_a;
@@ -44,7 +44,7 @@ inline void put_point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b,
 Row point_row(uint32_t block_a, const Vec3& arm_a, uint32_t block_b, const Vec3& arm_b,
               const Vec3& direction);
 
-/// The share of a side in J v.
+/// The contribution of a side to J v.
 inline double side_velocity(const RowSide& s, std::span<const DofBlock> blocks) {
   if (s.block == no_block) return 0;
   const DofBlock& block = blocks[s.block];

@@ -134,6 +134,8 @@ class FluidTickRun {
     const size_t places = s.lists.places();
     for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift, &s.terms, &s.other_terms})
       a->resize(places);
+    if (s.corrects())
+      for (FluidTriples* a : {&s.wide_terms, &s.other_wide_terms}) a->resize(places);
     s.volume.assign(places, 0);
     s.density.assign(places, 1);
     s.fluid.assign(places, 0);

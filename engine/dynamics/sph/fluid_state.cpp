@@ -46,12 +46,14 @@ void find_rates(FluidState& s, std::vector<double>& rates) {
 
 void find_divergences(FluidState& s, std::vector<double>& rates) {
   rates.resize(s.size());
-  s.each([&](size_t p) {
-    double rate = corrected_rate(s, p, s.v);
-    for (const WallTouch& t : s.touches_of(p))
-      rate += (s.v[p] - s.bodies[t.body].velocity_at(s.x(p))).dot(t.corrected);
-    rates[p] = rate;
-  });
+  s.each([&](size_t p) { s.wide_terms.put(p, opening_corrected(s, p, s.v[p])); });
+  s.each_with_pairs(FluidFactor::slope, s.wide_terms, nullptr,
+                    [&](size_t p, const FluidTriple& sum) {
+                      double rate = opened(s, p, s.v[p], sum);
+                      for (const WallTouch& t : s.touches_of(p))
+                        rate += (s.v[p] - s.bodies[t.body].velocity_at(s.x(p))).dot(t.corrected);
+                      rates[p] = rate;
+                    });
 }
 
 void find_walls(FluidState& s) {
@@ -125,23 +127,39 @@ Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin) {
 
 namespace {
 
-/// Sum of V |f d|^2 over the density of the other [1/(kg m2)]; `squares` is that without densities.
-double squares_by_density(const FluidState& s, size_t p, double squares) {
-  if (s.defs.size() == 1) return squares / s.density[p];
+/// Sum of V f^2 d d^T over the density of the other [1/(kg m2)], where fluids differ in it.
+Mat3 squares_by_density(const FluidState& s, size_t p) {
   const FluidList list = s.list(p);
-  double sum = 0;
+  Mat3 sum = Mat3::Zero();
   for (size_t k = 0; k < list.padded; ++k) {
     const size_t other = list.others[k];
     const double f = s.stores[s.store_of[p]].slope_unit() * double(list.slopes[k]);
-    sum += s.volume[other] * f * f * (s.x(p) - s.x(other)).squaredNorm() / s.density[other];
+    const Vec3 d = s.x(p) - s.x(other);
+    sum += s.volume[other] * f * f / s.density[other] * d * d.transpose();
   }
   return sum;
+}
+
+/// What a particle's own pressure does to its share by what it does to others: of plain sums, and
+/// of corrected ones before they are that.
+void find_squares(FluidState& s, size_t p, const FluidPairSums& sum) {
+  const bool corrects = s.corrects();
+  if (s.defs.size() > 1) {
+    const Mat3 squares = squares_by_density(s, p);
+    s.diagonal[p] = s.volume[p] * squares.trace();
+    if (corrects) s.square_matrix[p] = squares;
+  } else {
+    s.diagonal[p] = s.volume[p] * sum.squares / s.density[p];
+    if (corrects) s.square_matrix[p] = (1 / s.density[p]) * sum.square_matrix;
+  }
+  if (corrects) s.moment[p] = sum.moment;
 }
 
 /// Pairs of all particles, and what their sums say of shares.
 void find_fluid_pairs(FluidState& s) {
   const std::span<const FluidVector> points(s.at.data(), s.lists.places());
   const double self = s.kernel.value(0);
+  const FluidMoments moments = s.corrects() ? FluidMoments::found : FluidMoments::left_out;
   s.stores.resize(chunk_count);
   s.ranges.resize(s.size());
   s.store_of.resize(s.size());
@@ -151,14 +169,15 @@ void find_fluid_pairs(FluidState& s) {
     for (size_t p = first; p < last; ++p) most += s.lists.of(p).size();
     s.stores[chunk].clear(s.kernel, most);
     for (size_t p = first; p < last; ++p) {
-      const FluidPairSums sum = find_pairs(s.kernel, points, p, s.lists.of(p), s.stores[chunk]);
+      const FluidPairSums sum =
+          find_pairs(s.kernel, moments, points, p, s.lists.of(p), s.stores[chunk]);
       s.ranges[p] = sum.range;
       s.store_of[p] = uint32_t(chunk);
       pairs[chunk] += sum.pairs;
       s.share[p] = sum.share + s.volume[p] * self;
-      s.gradient[p] = {sum.gx, sum.gy, sum.gz};
+      s.fluid_gradient[p] = s.gradient[p] = {sum.gx, sum.gy, sum.gz};
       s.slopes[p] = sum.slopes;
-      s.diagonal[p] = s.volume[p] * squares_by_density(s, p, sum.squares);
+      find_squares(s, p, sum);
     }
   });
   s.report.pairs = 0;
@@ -170,7 +189,8 @@ void find_fluid_pairs(FluidState& s) {
 void find_surroundings(FluidState& s) {
   const size_t n = s.size();
   s.share.assign(s.lists.places(), 0);
-  s.gradient.resize(n), s.slopes.resize(n), s.diagonal.resize(n);
+  s.fluid_gradient.resize(n), s.gradient.resize(n), s.slopes.resize(n), s.diagonal.resize(n);
+  if (s.corrects()) s.moment.resize(n), s.square_matrix.resize(n);
   find_walls(s);
   find_fluid_pairs(s);
   s.each([&](size_t p) {
@@ -185,9 +205,9 @@ void find_surroundings(FluidState& s) {
 
 namespace {
 
-/// The inverse of a symmetric matrix whose eigenvalues are not below `least`, or are raised to it:
+/// The inverse of a symmetric matrix whose eigenvalues are raised to `least` where they are below:
 /// by Jacobi's rotations.
-Mat3 bounded_inverse(Mat3 a, double least) {
+Mat3 raised_inverse(Mat3 a, double least) {
   Mat3 axes = Mat3::Identity();
   for (int sweep = 0; sweep < tolerances::moment_sweeps; ++sweep)
     for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
@@ -205,14 +225,19 @@ Mat3 bounded_inverse(Mat3 a, double least) {
   return axes * inverse.asDiagonal() * axes.transpose();
 }
 
+/// Whether all eigenvalues of a symmetric matrix are above `least` (Sylvester's criterion).
+bool all_above(const Mat3& a, double least) {
+  const double x = a(0, 0) - least, y = a(1, 1) - least, z = a(2, 2) - least;
+  const double xy = a(0, 1), xz = a(0, 2), yz = a(1, 2);
+  const double minor = x * y - xy * xy;
+  return x > 0 && minor > 0 && z * minor - xz * (xz * y - xy * yz) + yz * (xy * xz - x * yz) > 0;
+}
+
 /// Sum of -V f d d, which is 1 for a fluid without end, and what walls add: next to one a fluid
 /// whose velocity is linear does not go through it, and closes its share by that velocity over the
 /// distance.
-Mat3 moment(const FluidState& s, size_t p) {
-  Mat3 sum = Mat3::Zero();
-  each_slope(s, p, [&](size_t other, const Vec3& slope) {
-    sum -= slope * (s.x(p) - s.x(other)).transpose();
-  });
+Mat3 moment_with_walls(const FluidState& s, size_t p) {
+  Mat3 sum = s.moment[p];
   for (const WallTouch& t : s.touches_of(p)) {
     const double steep = t.gradient.norm();
     if (steep > 0 && t.distance > 0)
@@ -227,15 +252,11 @@ void find_corrections(FluidState& s) {
   const size_t n = s.size();
   s.correction.resize(n), s.corrected_gradient.resize(n), s.corrected_diagonal.resize(n);
   s.each([&](size_t p) {
-    const Mat3 correction = bounded_inverse(moment(s, p), tolerances::least_moment);
-    Vec3 gradient = Vec3::Zero();
-    double squares = 0;
-    each_slope(s, p, [&](size_t other, const Vec3& slope) {
-      if (s.volume[other] == 0) return;
-      const Vec3 corrected = correction * slope;
-      gradient += corrected;
-      squares += corrected.squaredNorm() / (s.volume[other] * s.density[other]);
-    });
+    const Mat3 moment = moment_with_walls(s, p);
+    const double least = tolerances::least_moment;
+    const Mat3 correction =
+        all_above(moment, least) ? Mat3(moment.inverse()) : raised_inverse(moment, least);
+    Vec3 gradient = correction * s.fluid_gradient[p];
     for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
       WallTouch& t = s.touches[k];
       const double square = t.gradient.squaredNorm();
@@ -245,6 +266,7 @@ void find_corrections(FluidState& s) {
     }
     s.correction[p] = correction;
     s.corrected_gradient[p] = gradient;
+    const double squares = correction.cwiseProduct(correction * s.square_matrix[p]).sum();
     s.corrected_diagonal[p] = gradient.squaredNorm() / s.density[p] + s.volume[p] * squares +
                               body_diagonal(s, p, &WallTouch::corrected);
   });

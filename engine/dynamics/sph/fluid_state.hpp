@@ -53,19 +53,23 @@ struct FluidState {
   // -- of the sub-step
   double h = 0;  ///< [s]
   NeighbourLists lists;
-  FluidVectors at;                       ///< places [m] and volumes [m3]
-  FluidVectors v, acceleration;          ///< [m/s]; of a solve [m/s2]
-  FluidVectors terms, other_terms;       ///< what sums over pairs are of
+  FluidVectors at;                            ///< places [m] and volumes [m3]
+  FluidVectors v, acceleration;               ///< [m/s]; of a solve [m/s2]
+  FluidVectors terms, other_terms;            ///< what sums over pairs are of
+  FluidTriples wide_terms, other_wide_terms;  ///< likewise
   FluidVectors shift;                    ///< velocity of particles in this sub-step alone [m/s]
   std::vector<uint8_t> fluid;            ///< of which of the fluids a particle is
   std::vector<double> density;           ///< at rest [kg/m3]
   std::vector<double> volume, pressure;  ///< [m3], [Pa]
   std::vector<double> shift_pressure;    ///< what makes the shift, as a pressure [Pa]
   std::vector<double> share;             ///< density over that at rest [-]
-  std::vector<Vec3> gradient;            ///< sum of V f d and of twice the walls' gradients [1/m]
+  std::vector<Vec3> fluid_gradient;      ///< sum of V f d [1/m]
+  std::vector<Vec3> gradient;            ///< that and the walls' gradients [1/m]
   std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
   /// Of `dfsph`: what makes sums of slopes exact for velocities that are linear in places, and the
   /// gradient and diagonal with it: see find_corrections.
+  std::vector<Mat3> moment;                ///< of FluidPairSums [-]
+  std::vector<Mat3> square_matrix;         ///< of the same, over densities [1/(kg m2)]
   std::vector<Mat3> correction;            ///< [-]
   std::vector<Vec3> corrected_gradient;    ///< [1/m]
   std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
@@ -113,12 +117,11 @@ struct FluidState {
     });
   }
   /// The same of f(p, sum over the others of what `factor` says times y): see sum_pairs.
-  template <class F>
-  double sum_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
-                        const F& f) const {
+  template <class Terms, class F>
+  double sum_with_pairs(FluidFactor factor, const Terms& y, const double* q, const F& f) const {
     return sum_chunks([&](size_t first, size_t last) {
       constexpr size_t together = 64;
-      std::array<FluidVector, together> found;
+      std::array<std::remove_cvref_t<decltype(*y.data())>, together> found;
       double s = 0;
       for (size_t p = first; p < last;) {
         size_t end = p + 1;
@@ -131,10 +134,9 @@ struct FluidState {
     });
   }
   /// f(p, sum) for all places.
-  template <class F>
-  void each_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
-                       const F& f) const {
-    sum_with_pairs(factor, y, q, [&](size_t p, const FluidVector& sum) {
+  template <class Terms, class F>
+  void each_with_pairs(FluidFactor factor, const Terms& y, const double* q, const F& f) const {
+    sum_with_pairs(factor, y, q, [&](size_t p, const auto& sum) {
       f(p, sum);
       return 0.0;
     });
@@ -214,31 +216,38 @@ inline FluidVector opening(const FluidState& s, size_t p, const Vec3& u) {
 inline double opened(const FluidState& s, size_t p, const FluidVector& sum) {
   return sum.w - s.local(p).dot(sum.vector());
 }
-/// f(other, V f d of the other) for the neighbours of a particle.
-template <class F>
-void each_slope(const FluidState& s, size_t p, const F& f) {
-  const FluidList list = s.list(p);
-  const double unit = s.stores[s.store_of[p]].slope_unit();
-  for (size_t k = 0; k < list.padded; ++k) {
-    const size_t other = list.others[k];
-    f(other, Vec3(unit * double(list.slopes[k]) * s.volume[other] * (s.x(p) - s.x(other))));
-  }
-}
 /// The two sums with corrections K, of which each particle has its own:
-///   sum of V f (p K + p' K') d   and   sum of V f (u - u') . K d
-/// `pressed` are the products p K by place.
-inline Vec3 corrected_force(const FluidState& s, size_t p, double pressure,
-                            const std::vector<Mat3>& pressed) {
-  Vec3 force = pressure * s.corrected_gradient[p];
-  each_slope(s, p, [&](size_t other, const Vec3& slope) { force += pressed[other] * slope; });
-  return force;
+///   sum of V f (p K + p' K') d = p K sum of V f d + (sum of V f p' K') x - sum of V f p' K' x'
+///   sum of V f (u - u') . K d
+///     = K : (u (sum of V f d)^T - (sum of V f u') x^T + sum of V f u' x'^T)
+/// and what they are made of, as above.
+inline FluidTriple pressing_corrected(const FluidState& s, size_t p, double pressure) {
+  const double w = s.volume[p] * pressure;
+  const Mat3& k = s.correction[p];
+  const Vec3 x = w * (k * s.local(p));
+  return {{{w * k(0, 0), w * k(0, 1), w * k(0, 2), x[0]},
+           {w * k(1, 1), w * k(1, 2), w * k(2, 2), x[1]},
+           {x[2], 0, 0, 0}}};
 }
-inline double corrected_rate(const FluidState& s, size_t p, const FluidVectors& u) {
-  const Vec3 own = u[p];
-  Mat3 sum = Mat3::Zero();
-  each_slope(s, p,
-             [&](size_t other, const Vec3& slope) { sum += (own - u[other]) * slope.transpose(); });
-  return sum.cwiseProduct(s.correction[p]).sum();
+inline Vec3 pressed(const FluidState& s, size_t p, const FluidTriple& sum) {
+  const auto& [a, b, c] = sum.parts;
+  const Vec3 x = s.local(p);
+  return {a.x * x[0] + a.y * x[1] + a.z * x[2] - a.w, a.y * x[0] + b.x * x[1] + b.y * x[2] - b.w,
+          a.z * x[0] + b.y * x[1] + b.z * x[2] - c.x};
+}
+inline FluidTriple opening_corrected(const FluidState& s, size_t p, const Vec3& u) {
+  const Vec3 v = s.volume[p] * u, x = s.local(p);
+  const auto row = [&](int k) { return FluidVector{v[k] * x[0], v[k] * x[1], v[k] * x[2], v[k]}; };
+  return {{row(0), row(1), row(2)}};
+}
+inline double opened(const FluidState& s, size_t p, const Vec3& u, const FluidTriple& sum) {
+  const Vec3 x = s.local(p), &g = s.fluid_gradient[p];
+  double rate = 0;
+  for (int k = 0; k < 3; ++k) {
+    const FluidVector& of = sum.parts[k];
+    rate += s.correction[p].row(k).dot(u[k] * g - of.w * x + of.vector());
+  }
+  return rate;
 }
 /// For sums of V f (u - u') or V W (u - u').
 inline FluidVector differing(const FluidState& s, size_t p, const Vec3& u) {

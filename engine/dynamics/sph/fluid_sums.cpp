@@ -102,14 +102,17 @@ struct WendlandLanes {
 };
 
 /// The particle whose list is made, and its sums.
-template <class Kernel>
+template <class Kernel, bool moments>
 class PairFinder {
  public:
   HWY_INLINE PairFinder(const SmoothingKernel& kernel, const FluidVector* points, size_t place)
       : points_(points),
         own_(FluidFour::load(&points[place].x)),
         per_reach_(float(1 / kernel.reach())) {
-    for (size_t k = 0; k < single_parts; ++k) share_[k] = squares_[k] = every(0);
+    for (size_t k = 0; k < single_parts; ++k) {
+      share_[k] = squares_[k] = every(0);
+      for (size_t n = 0; n < symmetric; ++n) moment_[n][k] = square_matrix_[n][k] = every(0);
+    }
     for (FluidFour& g : gradient_) g = FluidFour::zero();
   }
 
@@ -136,6 +139,11 @@ class PairFinder {
       const SingleLanes f = hn::IfThenElseZero(hn::Gt(q, every(0)), hn::Div(slope, q));
       share_[part] = hn::Add(share_[part], hn::Mul(v, value));
       squares_[part] = hn::Add(squares_[part], hn::Mul(v, hn::Mul(slope, slope)));
+      if constexpr (moments) {
+        const SingleLanes push = hn::Mul(v, f);
+        add_products(moment_, part, push, x, y, z);
+        add_products(square_matrix_, part, hn::Mul(push, f), x, y, z);
+      }
       hn::Store(f, SingleTag(), slopes + at);
       // Written as many as there are lanes, of which those in reach are kept.
       const Compressor<SingleTag> compress(hn::Lt(q, every(1)));
@@ -160,12 +168,34 @@ class PairFinder {
     out.slopes = unit * ((slopes_[0] + slopes_[2]) + (slopes_[1] + slopes_[3]));
     out.share = kernel.scale() * total(share_);
     out.squares = per_reach * per_reach * total(squares_);
+    if constexpr (moments) {
+      out.moment = -unit * matrix(moment_);
+      out.square_matrix = unit * unit * matrix(square_matrix_);
+    }
   }
 
   static constexpr size_t at_once = 8;
 
  private:
   static constexpr size_t single_parts = at_once / single_lanes;
+  static constexpr size_t symmetric = 6;  ///< numbers of a symmetric matrix
+  using Products = SingleLanes[symmetric][single_parts];
+
+  static HWY_INLINE void add_products(Products& to, size_t part, SingleLanes factor, SingleLanes x,
+                                      SingleLanes y, SingleLanes z) {
+    const SingleLanes fx = hn::Mul(factor, x), fy = hn::Mul(factor, y), fz = hn::Mul(factor, z);
+    to[0][part] = hn::Add(to[0][part], hn::Mul(fx, x));
+    to[1][part] = hn::Add(to[1][part], hn::Mul(fx, y));
+    to[2][part] = hn::Add(to[2][part], hn::Mul(fx, z));
+    to[3][part] = hn::Add(to[3][part], hn::Mul(fy, y));
+    to[4][part] = hn::Add(to[4][part], hn::Mul(fy, z));
+    to[5][part] = hn::Add(to[5][part], hn::Mul(fz, z));
+  }
+  static HWY_INLINE Mat3 matrix(const Products& from) {
+    const double xx = total(from[0]), xy = total(from[1]), xz = total(from[2]), yy = total(from[3]),
+                 yz = total(from[4]), zz = total(from[5]);
+    return {xx, xy, xz, xy, yy, yz, xz, yz, zz};
+  }
   static HWY_INLINE double total(const SingleLanes* parts) {
     HWY_ALIGN float v[at_once];
     for (size_t k = 0; k < single_parts; ++k)
@@ -179,14 +209,15 @@ class PairFinder {
   FluidFour own_;
   float per_reach_;
   SingleLanes share_[single_parts], squares_[single_parts];
+  Products moment_, square_matrix_;
   FluidFour gradient_[4];
   double slopes_[4] = {};
 };
 
-template <class Kernel>
+template <class Kernel, bool moments>
 FluidPairSums pairs_of(const SmoothingKernel& kernel, std::span<const FluidVector> points,
                        size_t place, std::span<const uint32_t> candidates, FluidPairStore& store) {
-  using Finder = PairFinder<Kernel>;
+  using Finder = PairFinder<Kernel, moments>;
   Finder finder(kernel, points.data(), place);
   FluidPairSums out{};
   out.range.first = store.used();
@@ -204,51 +235,93 @@ FluidPairSums pairs_of(const SmoothingKernel& kernel, std::span<const FluidVecto
   return out;
 }
 
-FluidPairSums pairs_here(const SmoothingKernel& kernel, std::span<const FluidVector> points,
-                         size_t place, std::span<const uint32_t> candidates,
-                         FluidPairStore& store) {
+template <class Kernel>
+FluidPairSums pairs_by(FluidMoments moments, const SmoothingKernel& kernel,
+                       std::span<const FluidVector> points, size_t place,
+                       std::span<const uint32_t> candidates, FluidPairStore& store) {
+  return moments == FluidMoments::found
+             ? pairs_of<Kernel, true>(kernel, points, place, candidates, store)
+             : pairs_of<Kernel, false>(kernel, points, place, candidates, store);
+}
+
+FluidPairSums pairs_here(const SmoothingKernel& kernel, FluidMoments moments,
+                         std::span<const FluidVector> points, size_t place,
+                         std::span<const uint32_t> candidates, FluidPairStore& store) {
   return kernel.kind() == FluidKernelKind::wendland
-             ? pairs_of<WendlandLanes>(kernel, points, place, candidates, store)
-             : pairs_of<CubicLanes>(kernel, points, place, candidates, store);
+             ? pairs_by<WendlandLanes>(moments, kernel, points, place, candidates, store)
+             : pairs_by<CubicLanes>(moments, kernel, points, place, candidates, store);
 }
 
 // -- sums over them
 
-/// Of one particle: factors times means times y, of every fourth pair in a sum of its own.
-template <class Mean>
-HWY_INLINE FluidFour sum_of(const FluidList& list, const float* factors, const FluidVector* y,
-                            const Mean& mean) {
-  FluidFour sums[4] = {FluidFour::zero(), FluidFour::zero(), FluidFour::zero(), FluidFour::zero()};
+/// As many times four numbers.
+template <size_t fours>
+struct FluidFours {
+  FluidFour all[fours];
+  static HWY_INLINE FluidFours zero() {
+    FluidFours f;
+    for (FluidFour& a : f.all) a = FluidFour::zero();
+    return f;
+  }
+};
+template <size_t fours>
+HWY_INLINE FluidFours<fours> operator+(const FluidFours<fours>& a, const FluidFours<fours>& b) {
+  FluidFours<fours> sum;
+  for (size_t k = 0; k < fours; ++k) sum.all[k] = a.all[k] + b.all[k];
+  return sum;
+}
+
+/// Of one particle: factors times means times y, of every fourth pair in a sum of its own. `y` are
+/// that many vectors of each place.
+template <size_t fours, class Mean>
+HWY_INLINE FluidFours<fours> sum_of(const FluidList& list, const float* factors,
+                                    const FluidVector* y, const Mean& mean) {
+  using Sum = FluidFours<fours>;
+  Sum sums[4] = {Sum::zero(), Sum::zero(), Sum::zero(), Sum::zero()};
   for (size_t k = 0; k < list.padded; k += 4) {
     HWY_ALIGN double f[4];
     FluidFour::load(factors + k).store(f);
     for (size_t n = 0; n < 4; ++n) {
-      const uint32_t other = list.others[k + n];
-      sums[n] = sums[n] + mean(f[n], other) * FluidFour::load(&y[other].x);
+      const size_t other = list.others[k + n];
+      const double factor = mean(f[n], other);
+      for (size_t j = 0; j < fours; ++j)
+        sums[n].all[j] = sums[n].all[j] + factor * FluidFour::load(&y[fours * other + j].x);
     }
   }
   return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-void sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
-               FluidVector* sums) {
+template <size_t fours>
+HWY_INLINE void all_sums(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+                         std::span<const FluidPairStore::Range> ranges, const FluidVector* y,
+                         const double* q, FluidVector* sums) {
   const bool slopes = factor == FluidFactor::slope;
   const double unit = slopes ? store.slope_unit() : store.weight_unit();
   for (size_t p = 0; p < ranges.size(); ++p) {
     const FluidList list = store.list(ranges[p]);
     const float* factors = slopes ? list.slopes : list.weights;
-    FluidFour sum;
+    FluidFours<fours> sum;
     if (q) {
       const double own = q[first_place + p];
-      sum = sum_of(list, factors, y, [own, q](double f, uint32_t other) HWY_ATTR {
+      sum = sum_of<fours>(list, factors, y, [own, q](double f, size_t other) HWY_ATTR {
         return f * of_mean(own, q[other]);
       });
     } else {
-      sum = sum_of(list, factors, y, [](double f, uint32_t) HWY_ATTR { return f; });
+      sum = sum_of<fours>(list, factors, y, [](double f, size_t) HWY_ATTR { return f; });
     }
-    (unit * sum).store(&sums[p].x);
+    for (size_t j = 0; j < fours; ++j) (unit * sum.all[j]).store(&sums[fours * p + j].x);
   }
+}
+
+void sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
+               FluidVector* sums) {
+  all_sums<1>(store, factor, first_place, ranges, y, q, sums);
+}
+void triple_sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+                      std::span<const FluidPairStore::Range> ranges, const FluidTriple* y,
+                      const double* q, FluidTriple* sums) {
+  all_sums<3>(store, factor, first_place, ranges, &y->parts[0], q, &sums->parts[0]);
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -258,16 +331,22 @@ HWY_AFTER_NAMESPACE();
 namespace tumble {
 HWY_EXPORT(pairs_here);
 HWY_EXPORT(sums_here);
+HWY_EXPORT(triple_sums_here);
 
-FluidPairSums find_pairs(const SmoothingKernel& kernel, std::span<const FluidVector> points,
-                         size_t place, std::span<const uint32_t> candidates,
-                         FluidPairStore& store) {
-  return HWY_DYNAMIC_DISPATCH(pairs_here)(kernel, points, place, candidates, store);
+FluidPairSums find_pairs(const SmoothingKernel& kernel, FluidMoments moments,
+                         std::span<const FluidVector> points, size_t place,
+                         std::span<const uint32_t> candidates, FluidPairStore& store) {
+  return HWY_DYNAMIC_DISPATCH(pairs_here)(kernel, moments, points, place, candidates, store);
 }
 void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
                std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
                FluidVector* sums) {
   HWY_DYNAMIC_DISPATCH(sums_here)(store, factor, first_place, ranges, y, q, sums);
+}
+void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+               std::span<const FluidPairStore::Range> ranges, const FluidTriple* y, const double* q,
+               FluidTriple* sums) {
+  HWY_DYNAMIC_DISPATCH(triple_sums_here)(store, factor, first_place, ranges, y, q, sums);
 }
 }  // namespace tumble
 #endif

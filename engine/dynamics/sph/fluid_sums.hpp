@@ -36,6 +36,23 @@ class FluidVectors {
   std::vector<FluidVector> all_;
 };
 
+/// Twelve numbers of a particle that are summed at once, by place likewise.
+struct FluidTriple {
+  FluidVector parts[3];
+};
+class FluidTriples {
+ public:
+  void resize(size_t n) {
+    all_.resize(n);
+    all_.back() = {};
+  }
+  void put(size_t p, const FluidTriple& t) { all_[p] = t; }
+  const FluidTriple* data() const { return all_.data(); }
+
+ private:
+  std::vector<FluidTriple> all_;
+};
+
 /// What a particle has to do with the others in reach of it, pair by pair: the kernel W and its
 /// slope over the distance f, so that f times the way from the other particle to this one is the
 /// gradient of W. Both in parts of a unit of the store and rounded to single precision, alike for
@@ -92,16 +109,21 @@ struct FluidPairSums {
   size_t pairs;
   double share;       ///< sum of V W over the others [-]
   double gx, gy, gz;  ///< sum of V f d, d the way from the other [1/m]
-  double squares;     ///< sum of V |f d|^2 [1/m5]
   double slopes;      ///< sum of V f [1/m2]
+  double squares;     ///< sum of V |f d|^2 [1/m5]
+  // Where they are asked for, matrices; they are symmetric:
+  Mat3 moment;         ///< sum of -V f d d^T [-]
+  Mat3 square_matrix;  ///< sum of V f^2 d d^T, whose trace `squares` is [1/m5]
 };
+enum class FluidMoments : bool { left_out, found };
 
 // Each of these is sums side by side in an order that is the same for every instruction set.
 
 /// Appends the list of the particle at `place` to the store. `candidates` are a multiple of eight
 /// places, of which those that are in reach count; the last of points() fills the list up.
-FluidPairSums find_pairs(const SmoothingKernel& kernel, std::span<const FluidVector> points,
-                         size_t place, std::span<const uint32_t> candidates, FluidPairStore& store);
+FluidPairSums find_pairs(const SmoothingKernel& kernel, FluidMoments moments,
+                         std::span<const FluidVector> points, size_t place,
+                         std::span<const uint32_t> candidates, FluidPairStore& store);
 
 // What passes between two particles goes by the harmonic mean of a quantity q that each has, such
 // as a viscosity, and which is not negative: own q times `of_mean`, which is exactly 1 where both
@@ -120,5 +142,9 @@ enum class FluidFactor : uint8_t { slope, weight };
 void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
                std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
                FluidVector* sums);
+/// The same of twelve numbers.
+void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+               std::span<const FluidPairStore::Range> ranges, const FluidTriple* y, const double* q,
+               FluidTriple* sums);
 
 }  // namespace tumble

@@ -32,7 +32,6 @@ class PressureForces {
         pressure_(pressure),
         corrected_(sums == Sums::corrected),
         responses_(s.bodies.size()) {
-    if (corrected_) pressed_.assign(s.lists.places(), Mat3::Zero());
     if (!bodies_yield) return;
     for (const FluidBody& b : s.body_defs) bodies_yield_ = bodies_yield_ || b.inverse_mass > 0;
   }
@@ -52,9 +51,10 @@ class PressureForces {
   double sum_openings(const F& f) const {
     const FluidState& s = s_;
     if (corrected_)
-      return s.sum([&](size_t p) {
-        return f(p, corrected_rate(s, p, s.acceleration) + opened_by_walls(p));
-      });
+      return s.sum_with_pairs(
+          FluidFactor::slope, s.other_wide_terms, nullptr, [&](size_t p, const FluidTriple& sum) {
+            return f(p, opened(s, p, s.acceleration[p], sum) + opened_by_walls(p));
+          });
     return s.sum_with_pairs(
         FluidFactor::slope, s.other_terms, nullptr, [&](size_t p, const FluidVector& sum) {
           const double rate =
@@ -84,11 +84,14 @@ class PressureForces {
   }
   void find_corrected() {
     FluidState& s = s_;
-    s.each([&](size_t p) { pressed_[p] = pressure_[p] * s.correction[p]; });
-    s.each([&](size_t p) {
-      const Vec3 force = corrected_force(s, p, pressure_[p], pressed_);
-      s.acceleration.set(p, -(1 / s.density[p]) * force);
-    });
+    s.each([&](size_t p) { s.wide_terms.put(p, pressing_corrected(s, p, pressure_[p])); });
+    s.each_with_pairs(
+        FluidFactor::slope, s.wide_terms, nullptr, [&](size_t p, const FluidTriple& sum) {
+          const Vec3 force = pressure_[p] * s.corrected_gradient[p] + pressed(s, p, sum);
+          const Vec3 a = -(1 / s.density[p]) * force;
+          s.acceleration.set(p, a);
+          s.other_wide_terms.put(p, opening_corrected(s, p, a));
+        });
   }
   const Vec3& gradient(const WallTouch& t) const { return corrected_ ? t.corrected : t.gradient; }
   double opened_by_bodies(size_t p) const {
@@ -115,7 +118,6 @@ class PressureForces {
   FluidState& s_;
   const std::vector<double>& pressure_;
   bool corrected_, bodies_yield_ = false;
-  std::vector<Mat3> pressed_;      ///< pressure times correction, by place [Pa]
   std::vector<Wrench> responses_;  ///< what bodies make of the forces
 };
 

@@ -54,10 +54,12 @@ Status check_surface(const TriangleMesh& mesh) {
   add(topology.open_edges, "open edges");
   add(topology.non_manifold_edges, "edges with more than two triangles");
   add(topology.misoriented_edges, "edges whose triangles disagree");
-  return Error{ErrorCode::invalid_argument,
-               "only a closed mesh has an inside; this one has " + why,
-               {},
-               "close it; `tumble mesh FILE` lists the holes"};
+  return Error{
+      ErrorCode::invalid_argument,
+      "only a closed mesh has an inside; this one has " + why,
+      {},
+      "close it, or wrap it (\"wrap\": {} of a mesh, `tumble mesh FILE --wrap`); `tumble mesh "
+      "FILE` lists the holes"};
 }
 
 }  // namespace

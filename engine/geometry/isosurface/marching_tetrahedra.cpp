@@ -1,5 +1,7 @@
 #include "engine/geometry/isosurface/marching_tetrahedra.hpp"
 
+#include "engine/core/stop.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -193,8 +195,14 @@ void Marching::make_triangles(const Window& window, const BrickVertices& brick) 
 
 TriangleMesh Marching::run() {
   place_bricks();
-  for (BrickVertices& brick : bricks_) make_vertices(Window(field_, brick.at), brick);
-  for (const BrickVertices& brick : bricks_) make_triangles(Window(field_, brick.at), brick);
+  for (BrickVertices& brick : bricks_) {
+    if (stop_requested()) return {};
+    make_vertices(Window(field_, brick.at), brick);
+  }
+  for (const BrickVertices& brick : bricks_) {
+    if (stop_requested()) return {};
+    make_triangles(Window(field_, brick.at), brick);
+  }
   return std::move(mesh_);
 }
 

@@ -11,10 +11,10 @@ namespace tumble {
 /// faces. A tetrahedron has no ambiguous case.
 ///
 /// For every input the mesh is a closed oriented 2-manifold: every edge has two triangles that run
-/// along it in opposite directions, and the triangles at a vertex form one fan. Vertices are where
-/// the field, linear along the edges, is 0, but at least a millionth of an edge from a node, so
-/// that no triangle has coinciding corners. Empty if the field is negative nowhere. Vertices and
-/// triangles are in the order of the grid.
+/// it in opposite directions, and the triangles about a vertex form one fan. Vertices stand where
+/// the field, linear along the edges, is 0, but never within a millionth of an edge of a node, so
+/// that no triangle has coinciding corners. Empty for a field that is negative nowhere. Vertices
+/// and triangles are in the order of the grid. Empty when stopped, too (engine/core/stop.hpp).
 TriangleMesh isosurface(const SparseField& field);
 
 }  // namespace tumble

@@ -93,9 +93,9 @@ class SolidCheck {
     for (uint32_t v = 0; v < lowest.size(); ++v) equal += lowest[v] != v;
     f.cure = equal > 0 ? fmt::format(
                              "weld its vertices, {} of which lie upon others; fill its "
-                             "holes, or use its convex hull",
+                             "holes, wrap it, or use its convex hull",
                              equal)
-                       : "weld its vertices, fill its holes, or use its convex hull";
+                       : "weld its vertices, fill its holes, wrap it, or use its convex hull";
   }
 
   void edges() {
@@ -114,7 +114,7 @@ class SolidCheck {
     f.text = fmt::format(
         "the mesh has no defined inside: {} {}, at which more than two triangles meet",
         fault_text::counted(f.count, "non-manifold edge"), fault_text::named("vertices", f.edges));
-    f.cure = "clean the mesh, split it into parts, or use its convex hull";
+    f.cure = "clean the mesh, split it into parts, wrap it, or use its convex hull";
   }
 
   void orientation_faults() {
@@ -151,7 +151,7 @@ class SolidCheck {
           "order of corners agrees everywhere",
           fault_text::counted(f.count, "part"), f.count == 1 ? "is" : "are",
           fault_text::named("from triangle", f.triangles));
-      f.cure = "cut it open along a seam and give it thickness, or use its convex hull";
+      f.cure = "cut it open along a seam and give it thickness, wrap it, or use its convex hull";
     }
   }
 
@@ -238,8 +238,8 @@ class SolidCheck {
         "other {}",
         fault_text::counted(f.count, "pair"), fault_text::named("numbers", f.pairs));
     f.cure =
-        "unite its parts in a modelling program, make each a shape of its own, or use its convex "
-        "hull";
+        "unite its parts in a modelling program, make each a shape of its own, wrap it, or use "
+        "its convex hull";
   }
 
   void shells(const ShellNesting& nesting, const std::vector<TriangleIds>& crossing) {
@@ -296,7 +296,7 @@ class SolidCheck {
       SolidFault& f = add(SolidFaultKind::no_volume, std::max<size_t>(closed, 1));
       f.triangles = original(flat);
       f.text = "the mesh encloses no volume";
-      f.cure = "give it thickness";
+      f.cure = "give it thickness, or wrap it";
     }
   }
 

@@ -30,10 +30,10 @@ struct Maker {
     return out;
   }
   template <size_t place>
-  ShapeDef shape(const ListedShapeDescription<place>& s) const {
+  ShapeDef shape(const ListedShapeDescription<place>& s, const std::string&) const {
     return s.def;
   }
-  ShapeDef shape(const ConvexHullShapeDescription& s) const {
+  ShapeDef shape(const ConvexHullShapeDescription& s, const std::string&) const {
     ShapeDef out = of_type(ShapeType::convex_hull);
     if (s.mesh.empty()) {
       auto points = std::make_shared<TriangleMesh>();
@@ -44,24 +44,29 @@ struct Maker {
     }
     return out;
   }
-  ShapeDef shape(const TriangleMeshShapeDescription& s) const {
+  ShapeDef shape(const TriangleMeshShapeDescription& s, const std::string&) const {
     ShapeDef out = of_type(ShapeType::triangle_mesh);
     out.mesh = meshes.find(s.mesh);
     return out;
   }
   /// As it is drawn.
-  ShapeDef shape(const MeshShapeDescription& s) const {
-    const MeshDescription* m = scene.meshes.find(s.mesh);
-    const auto mode = s.how.mode ? s.how.mode : m ? m->how.mode : std::nullopt;
+  ShapeDef shape(const MeshShapeDescription& s, const std::string& path) const {
+    const auto mode = how(s).mode;
     ShapeDef out =
         of_type(mode == MeshMode::convex_hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
-    out.mesh = meshes.find(s.mesh);
+    out.mesh = wrapped(meshes.find(s.mesh), s.wrap, path, sink, warnings);
     return out;
   }
+  /// As the shape says, or else its mesh.
+  MeshModeDescription how(const MeshShapeDescription& s) const {
+    const MeshDescription* m = scene.meshes.find(s.mesh);
+    return s.how.mode || !m ? s.how : m->how;
+  }
 
-  BodyShapeDef body_shape(const ShapeDescription& s, const BodyDescription& body) const {
+  BodyShapeDef body_shape(const ShapeDescription& s, const std::string& path,
+                          const BodyDescription& body) const {
     BodyShapeDef out;
-    out.shape = std::visit([this](const auto& kind) { return shape(kind); }, s.kind);
+    out.shape = std::visit([&](const auto& kind) { return shape(kind, path); }, s.kind);
     out.pose = s.placement.pose();
     out.material = material(s.material ? s.material : body.material);
     if (body.density) out.material.density = *body.density;
@@ -70,28 +75,30 @@ struct Maker {
   /// A shape of a body; of a mesh those that stand for it. False after a fault.
   bool add_shapes(const ShapeDescription& s, const std::string& path, const BodyDescription& body,
                   BodyDef& out) const {
-    const BodyShapeDef whole = body_shape(s, body);
+    const BodyShapeDef whole = body_shape(s, path, body);
     const auto* d = std::get_if<MeshShapeDescription>(&s.kind);
     if (!d) {
       const auto* hull = std::get_if<ConvexHullShapeDescription>(&s.kind);
       if (hull && !hull->mesh.empty() && whole.shape.mesh)
-        if (const std::string note = hull_note(whole.shape.mesh); !note.empty())
+        if (const std::string note = hull_note(whole.shape.mesh);
+            !note.empty() && meshes.says_first(*whole.shape.mesh, note))
           warnings.push_back(path + ": " + note);
       out.shapes.push_back(whole);
       return true;
     }
-    const auto mesh = meshes.find(d->mesh);
+    const auto mesh = whole.shape.mesh;
     if (!mesh) return false;  // a fault about it has been given
-    if (!d->how.mode) {
+    if (!d->how.mode && !d->wrap) {
       append_mesh_parts(out.shapes, whole, mesh, *meshes.parts(d->mesh));
       return true;
     }
-    const auto parts = mesh_parts(mesh, representation_of(d->how, bounds(*mesh)));
+    const auto parts = mesh_parts(mesh, representation_of(how(*d), bounds(*mesh)));
     if (!parts) {
       sink(path + ".mode", parts.error().text());
       return false;
     }
-    if (!parts->note.empty()) warnings.push_back(path + ": " + parts->note);
+    if (!parts->note.empty() && meshes.says_first(*mesh, parts->note))
+      warnings.push_back(path + ": " + parts->note);
     append_mesh_parts(out.shapes, whole, mesh, *parts);
     return true;
   }
@@ -104,9 +111,9 @@ struct Maker {
     return std::make_shared<const TimeCourse>(*TimeCourse::table({{0, unit * number->value}}));
   }
 
-  DrawnShapeDef drawn_shape(const DrawnDescription& s) const {
+  DrawnShapeDef drawn_shape(const DrawnDescription& s, const std::string& path) const {
     DrawnShapeDef out;
-    out.shape = std::visit([this](const auto& kind) { return shape(kind); }, s.kind);
+    out.shape = std::visit([&](const auto& kind) { return shape(kind, path); }, s.kind);
     out.pose = s.placement.pose();
     if (s.colour) out.colour = s.colour->linear();
     return out;
@@ -131,7 +138,8 @@ struct Maker {
           BodyCourse{{course_of(d.course->x), course_of(d.course->y), course_of(d.course->z)},
                      d.course->axis,
                      course_of(d.course->angle_deg, to_radians(1))});
-    for (const DrawnDescription& s : d.drawn) out.drawn.push_back(drawn_shape(s));
+    for (size_t i = 0; i < d.drawn.size(); ++i)
+      out.drawn.push_back(drawn_shape(d.drawn[i], fmt::format("{}.drawn[{}]", path, i)));
     out.mass = d.mass;
     out.inertia = d.inertia;
     out.products = d.products;

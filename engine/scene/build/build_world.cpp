@@ -1,6 +1,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/particles/emission_bounds.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/build/assembly.hpp"
 #include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/coupling_faults.hpp"
 #include "engine/scene/build/emitter_defs.hpp"
@@ -221,6 +222,12 @@ class Builder {
     for (auto& [path, sentence] : coupling_faults(built_)) fault(path, std::move(sentence));
   }
 
+  void assemble_joints() {
+    if (!built_.world || !scene_.assemble) return;
+    for (auto& [path, sentence] : assemble(built_)) fault(path, std::move(sentence));
+    apply();
+  }
+
   void add_forces() {
     if (!built_.world) return;
     for (const auto& [name, force] : scene_.forces.items) {
@@ -397,6 +404,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   if (!found.empty()) return fail();
   builder.add_joints();
   builder.add_couplings();
+  builder.assemble_joints();
   builder.add_emitters();
   builder.add_sinks();
   builder.add_sensors();

@@ -110,8 +110,9 @@ class Couplings {
       round += fmt::format("{}'{}'", length == 1 ? "" : ", ", name_of(p));
     }
     if (length > most_named) round = fmt::format("{} others", length - 1);
-    const std::string added =
-        line.shifts() ? " + " + value_text(first, line.offset) : std::string();
+    const std::string added = line.shifts() ? (line.offset < 0 ? " - " : " + ") +
+                                                  value_text(first, std::fabs(line.offset))
+                                            : std::string();
     if (line.changes_rate())
       fault(first,
             fmt::format("is coupled to itself (through {}) by x = {:.6g} x{}, which only {} "

@@ -76,8 +76,8 @@ void look_at_empty_lists(const SceneDescription& scene, Idle& idle) {
   const JsonNode* emitters = tree ? tree->find("emitters") : nullptr;
   if (!emitters) return;
   for (size_t i = 0; i < emitters->keys.size(); ++i)
-    for (const char* key : {"colours", "size_over_life", "colour_over_life", "opacity_over_life",
-                            "bursts", "events"}) {
+    for (const char* key : {"colours", "size_over_life", "mass_over_life", "colour_over_life",
+                            "opacity_over_life", "over_time", "bursts", "events"}) {
       const JsonNode* list = emitters->items[i].find(key);
       idle(list && list->is(JsonNode::Kind::array) && list->items.empty(),
            fmt::format("emitters.{}.{}", emitters->keys[i], key),

@@ -50,6 +50,24 @@ void fill_schedule(EmitterDef& out, const EmitterDescription& d) {
   if (d.at_most) out.at_most = uint64_t(*d.at_most);
 }
 
+EmissionCourse course_of(const std::vector<EmissionKeyDescription>& keys) {
+  EmissionCourse out;
+  const auto add = [](auto& curve, double time, const auto& value) {
+    if (value) curve.points.push_back({time, *value});
+  };
+  for (const EmissionKeyDescription& key : keys) {
+    add(out.rate, key.time, key.rate);
+    add(out.speed, key.time, key.speed);
+    add(out.spread, key.time, key.spread);
+    add(out.life, key.time, key.life);
+    add(out.mass, key.time, key.mass);
+    add(out.radius, key.time, key.radius);
+    add(out.spin, key.time, key.spin);
+    if (key.colour) out.colour.points.push_back({key.time, key.colour->linear()});
+  }
+  return out;
+}
+
 /// What each one is like; of a system `system` unless the emitter says otherwise.
 void fill_values(EmitterDef& out, const EmitterDescription& d,
                  const ParticleSystemDescription* system) {
@@ -70,6 +88,8 @@ void fill_values(EmitterDef& out, const EmitterDescription& d,
   if (d.radius) out.radius = d.radius->number;
   if (!d.colours.empty()) out.colours = linear(d.colours);
   out.size_over_life = d.size_over_life;
+  out.mass_over_life = d.mass_over_life;
+  out.over_time = course_of(d.over_time);
   out.colour_over_life = linear(d.colour_over_life);
   out.opacity_over_life = d.opacity_over_life;
 }

@@ -3,6 +3,7 @@
 #include "engine/dynamics/particles/fluid_def.hpp"
 #include "engine/dynamics/sph/fluid_solver.hpp"
 #include "engine/math/det/det.hpp"
+#include "engine/world/tolerances.hpp"
 #include "engine/world/world.hpp"
 
 #include <algorithm>
@@ -39,11 +40,29 @@ bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
   return false;
 }
 
+/// A fluid has one kernel, which goes by the mean volume of its particles.
+Status one_spacing(const ParticleSystemDef& def) {
+  const auto [finest, coarsest] =
+      std::ranges::minmax(def.particles, {}, [](const ParticleDef& p) { return p.mass; });
+  const auto spacing = [&](const ParticleDef& p) {
+    return det::pow(p.mass / def.fluid->density, 1.0 / 3);
+  };
+  const double fine = spacing(finest), coarse = spacing(coarsest);
+  if (coarse <= tolerances::most_spacing_ratio * fine) return {};
+  return Error{ErrorCode::invalid_argument,
+               fmt::format("particles of this fluid have spacings from {:.4g} m to {:.4g} m, whose "
+                           "ratio may be {} at most: the coarse ones would miss each other",
+                           fine, coarse, tolerances::most_spacing_ratio),
+               "particles." + def.name,
+               "fill all of it with about the same \"spacing\", or \"mass\" if that is given"};
+}
+
 }  // namespace
 
 Status fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
                  ParticleSystemDef& def, bool may_fall, std::vector<std::string>& warnings) {
   if (def.particles.empty()) return {};
+  if (Status one = one_spacing(def); !one) return one;
   std::vector<FluidWall> walls;
   for (const auto& [name, id] : bodies)
     if (const RigidBody* b = world.body(id))

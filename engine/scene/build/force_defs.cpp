@@ -48,13 +48,15 @@ struct ForceMaker {
     out.damping = d.damping;
     out.cable_radius = d.cable_radius;
     out.rest_length =
-        d.rest_length.value_or((start_of(*a, *built.world) - start_of(*b, *built.world)).norm());
+        d.rest_length ? *d.rest_length
+                      : Varying((start_of(*a, *built.world) - start_of(*b, *built.world)).norm());
     return ForceDef(out);
   }
-  Result<ForceDef> operator()(const MouseSpringDescription& d) const {
+  template <class Def>
+  Result<ForceDef> operator()(const AnchoredDescription<Def>& d) const {
     const auto a = anchor_of(d.anchor, built);
     if (!a) return a.error();
-    MouseSpringDef out = d.spring;
+    Def out = d.force;
     out.anchor = *a;
     return ForceDef(out);
   }

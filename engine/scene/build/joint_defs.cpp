@@ -118,6 +118,12 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
   if (d.start) at_start.x += world.direction(Vec3(0, 0, *d.start));
   if (d.start_deg) at_start.q = world.q * axis_angle(Vec3::UnitZ(), degree * *d.start_deg);
   out.frame_b = on_b.inverse() * at_start;
+  if (d.axis_on_b) {
+    // Turned there on the shortest way from where it is at the start.
+    const Vec3 from = out.frame_b.direction(Vec3::UnitZ());
+    out.frame_b.q = rotation_between(from, d.axis_on_b->normalized()) * out.frame_b.q;
+  }
+  if (d.anchor_b) out.frame_b.x = *d.anchor_b;
   set_drives(d, out);
   if (d.kind == JointKind::distance || d.kind == JointKind::free) {
     out.frame_b.x = d.anchor_b.value_or(Vec3::Zero());

@@ -74,6 +74,38 @@ std::string taken_back(const WorldSettings& settings, bool angle) {
                      rate_with_unit(settings.event.recovery_speed, angle));
 }
 
+/// Sums over the rows of a joint's parts, of lengths and of angles.
+struct Off {
+  double apart = 0, turned = 0;
+
+  template <class Value>
+  Off(const StartingJoint& joint, const Value& value) {
+    JointRows rows;
+    joint_rows(joint.def->kind, joint.sides, rows);
+    for (const JointRow& row : rows.all()) {
+      double& sum = row.row.b.linear.isZero(0) ? turned : apart;
+      sum = std::hypot(sum, value(row));
+    }
+  }
+};
+
+/// Where its ends are not where it is to hold them; of rods the length tells.
+void look_at_ends(const StartingJoint& joint, const WorldSettings& settings, Sentences& sentences) {
+  if (joint.def->kind == JointKind::distance) return;
+  const Off off(joint, [](const JointRow& row) { return row.error; });
+  const JointSide &a = joint.sides.a, &b = joint.sides.b;
+  const double size = a.arm.norm() + b.arm.norm() + (a.anchor() - b.anchor()).norm();
+  const auto add = [&](double by, double least, bool angle) {
+    if (by > least)
+      sentences.add(
+          fmt::format("joints.{}: its ends begin {} off; {} (place the bodies to fit, or "
+                      "set \"assemble\": true)",
+                      joint.name, value_with_unit(by, angle), taken_back(settings, angle)));
+  };
+  add(off.apart, least_value + value_slack * size, false);
+  add(off.turned, least_value + value_slack, true);
+}
+
 void look_at_limits(const StartingJoint& joint, const WorldSettings& settings,
                     Sentences& sentences) {
   for (size_t k = 0; k < entry_of(joint.def->kind).coordinates.size(); ++k) {
@@ -84,7 +116,7 @@ void look_at_limits(const StartingJoint& joint, const WorldSettings& settings,
     if (!(beyond > least_value + value_slack * std::fabs(limit))) continue;
     sentences.add(fmt::format(
         "{}: begins at {}, {} beyond its {} limit of {}; {} (let it begin "
-        "within its limits)",
+        "within its limits, or set \"assemble\": true)",
         joint.place(k), value_with_unit(joint.value(k), angle), value_with_unit(beyond, angle),
         below ? "lower" : "upper", value_with_unit(limit, angle),
         l.hard() ? taken_back(settings, angle)
@@ -101,7 +133,7 @@ void look_at_coupling(const StartingJoint& joint, size_t k, const StartingJoint&
   if (std::fabs(is - asked) > least_value + value_slack * (std::fabs(is) + std::fabs(asked)))
     sentences.add(fmt::format(
         "{}: begins at {}, but '{}', which it is coupled to, begins at {} and asks for {}: {} off; "
-        "{} (choose offset, ratio and where the two begin to fit)",
+        "{} (choose offset, ratio and where the two begin to fit, or set \"assemble\": true)",
         joint.place(k), value_with_unit(is, angle), leader.name,
         value_with_unit(led, leader.kind_of(couple.coordinate).angle),
         value_with_unit(asked, angle), value_with_unit(std::fabs(is - asked), angle),
@@ -112,21 +144,14 @@ void look_at_coupling(const StartingJoint& joint, size_t k, const StartingJoint&
     sentences.add(fmt::format(
         "{}: begins at {}, but '{}', which it is coupled to, asks for {}; an "
         "impulse in the first tick makes them agree (give the bodies "
-        "velocities that fit)",
+        "velocities that fit, or set \"assemble\": true)",
         joint.place(k), rate_with_unit(rate, angle), leader.name, rate_with_unit(ahead, angle)));
 }
 
 /// How fast the parts of a joint that are held to each other move apart at the start.
 void look_at_velocities(const StartingJoint& joint, Sentences& sentences) {
   if (!joint.velocity_known) return;
-  JointRows rows;
-  joint_rows(joint.def->kind, joint.sides, rows);
-  double apart = 0, turning = 0;
-  for (const JointRow& row : rows.all()) {
-    const bool linear = !row.row.b.linear.isZero(0);
-    double& sum = linear ? apart : turning;
-    sum = std::hypot(sum, row_rate(row, joint.sides));
-  }
+  const Off off_by(joint, [&](const JointRow& row) { return row_rate(row, joint.sides); });
   const JointSide &a = joint.sides.a, &b = joint.sides.b;
   const double speed = a.anchor_velocity().norm() + b.anchor_velocity().norm();
   const double spin = a.omega.norm() + b.omega.norm();
@@ -134,11 +159,12 @@ void look_at_velocities(const StartingJoint& joint, Sentences& sentences) {
     if (off > least_speed + speed_slack * size)
       sentences.add(fmt::format(
           "joints.{}: its bodies begin with velocities that it does not allow: {} against each "
-          "other; an impulse in the first tick ends that (give them velocities that fit)",
+          "other; an impulse in the first tick ends that (give them velocities that fit, or set "
+          "\"assemble\": true)",
           joint.name, rate_with_unit(off, angle)));
   };
-  add(apart, speed, false);
-  add(turning, spin, true);
+  add(off_by.apart, speed, false);
+  add(off_by.turned, spin, true);
 }
 
 }  // namespace
@@ -150,6 +176,10 @@ std::vector<std::string> joint_start_warnings(const BuiltScene& built) {
   if (!frame->joints) return out;
   const WorldSettings& settings = built.world->settings();
   const std::map<uint32_t, StartingJoint> joints = starting_joints(built, *frame);
+  {
+    Sentences sentences(out);
+    for (const auto& [index, joint] : joints) look_at_ends(joint, settings, sentences);
+  }
   {
     Sentences sentences(out);
     for (const auto& [index, joint] : joints) look_at_limits(joint, settings, sentences);

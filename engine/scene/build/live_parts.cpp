@@ -85,10 +85,8 @@ bool holds_on_to(const ForceDef& def, ParticleSystemId id) {
   const auto is_of = [&](const Anchor& a) {
     return a.kind == Anchor::Kind::particle && a.particles == id;
   };
-  if (const auto* spring = std::get_if<SpringDef>(&def))
-    return is_of(spring->a) || is_of(spring->b);
-  const auto* mesh = std::get_if<SpringMeshDef>(&def);
-  return mesh && mesh->mesh && std::ranges::any_of(mesh->mesh->nodes, is_of);
+  const Anchors ends = anchors(def);
+  return std::any_of(ends.begin(), ends.end(), is_of);
 }
 
 /// What an emitter makes copies of: a body of now, as if it had been described for that.
@@ -190,8 +188,12 @@ Status tie_system(World& world, const ParticleSystemDescription& d, ParticleSyst
 bool holds_particle_of(const ForceDescription& d, const std::string& system) {
   if (const auto* spring = std::get_if<SpringDescription>(&d.kind))
     return spring->a.particles == system || spring->b.particles == system;
-  const auto* mouse = std::get_if<MouseSpringDescription>(&d.kind);
-  return mouse && mouse->anchor.particles == system;
+  return std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.anchor; }) return kind.anchor.particles == system;
+        return false;
+      },
+      d.kind);
 }
 
 bool among(const std::vector<std::string>& names, const std::string& name) {

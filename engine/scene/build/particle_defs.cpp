@@ -105,6 +105,7 @@ ParticleLook particle_look(const ParticleLookDescription& d) {
   look.clarity = d.clarity;
   look.foam = d.foam;
   look.opacity = d.opacity;
+  look.trail = d.trail;
   if (d.range.size() == 2) {
     look.low = d.range[0];
     look.high = d.range[1];

@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/geometry/distance_field/distance_field.hpp"
+#include "engine/scene/build/wrap_cache.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "engine/scene/resources.hpp"
 
@@ -18,6 +19,20 @@ MeshRepresentation representation_of(const MeshModeDescription& d, const Aabb& b
   options.error = d.error.value_or(0);
   out.cell = field_cell(options, bounds);
   return out;
+}
+
+std::shared_ptr<const TriangleMesh> wrapped(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            const std::optional<WrapDescription>& wrap,
+                                            const std::string& path, const FaultSink& sink,
+                                            std::vector<std::string>& warnings) {
+  if (!mesh || !wrap) return mesh;
+  auto made = WrapCache().wrap(mesh, wrap_options(*wrap));
+  if (!made) {
+    sink(path + ".wrap", made.error().text());
+    return nullptr;
+  }
+  warnings.push_back(path + ": " + wrap_note(*made));
+  return std::make_shared<const TriangleMesh>(std::move(made->mesh));
 }
 
 SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
@@ -38,7 +53,9 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
     }
     for (const std::string& note : imported->notes)
       warnings.push_back("meshes." + name + ": " + note);
-    const auto mesh = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
+    const auto mesh = wrapped(std::make_shared<const TriangleMesh>(std::move(imported->mesh)),
+                              m.wrap, "meshes." + name, sink, warnings);
+    if (!mesh) continue;
     auto parts = mesh_parts(mesh, representation_of(m.how, bounds(*mesh)));
     if (!parts) {
       sink("meshes." + name + ".mode", parts.error().text());
@@ -58,6 +75,10 @@ std::shared_ptr<const TriangleMesh> SceneMeshes::find(const std::string& name) c
 const MeshParts* SceneMeshes::parts(const std::string& name) const {
   const auto it = parts_.find(name);
   return it == parts_.end() ? nullptr : &it->second;
+}
+
+bool SceneMeshes::says_first(const TriangleMesh& mesh, const std::string& note) const {
+  return said_.emplace(&mesh, note).second;
 }
 
 }  // namespace tumble

@@ -33,7 +33,10 @@ struct SensorMaker {
     out.bodies = target.takes != SensorTakes::particles;
     out.particles = target.takes != SensorTakes::bodies;
     for (const std::string& name : target.bodies) add_ids(built.bodies, name, out.only_bodies);
-    for (const std::string& name : target.particles) {
+    return systems(out, target.particles);
+  }
+  Status systems(SensorDef& out, const std::vector<std::string>& names) const {
+    for (const std::string& name : names) {
       const auto found = built.particles.find(name);
       if (found == built.particles.end())
         return Error{ErrorCode::not_found, "there is no particle system '" + name + "'", {}, {}};
@@ -52,6 +55,12 @@ struct SensorMaker {
     out.kind = SensorKind::region;
     out.shape = d.shape();
     return place(out, d.target);
+  }
+  Status fill(SensorDef& out, const RadialDescription& d) const {
+    out.kind = SensorKind::radial;
+    out.range = d.range;
+    out.shells = uint32_t(d.shells);
+    return systems(out, d.particles);
   }
   Status fill(SensorDef& out, const ContactSensorDescription& d) const {
     out.kind = SensorKind::contact;

@@ -36,19 +36,41 @@ void check_kind(const EmitterDescription& d, Complaints& complaints) {
     if (d.mass) complaints.add("mass", "is of particles; a body has its own");
     if (d.radius) complaints.add("radius", "is of particles; a body has its own size");
     if (!d.size_over_life.empty()) complaints.add("size_over_life", "is of particles only");
+    if (!d.mass_over_life.empty()) complaints.add("mass_over_life", "is of particles only");
     if (!d.colour_over_life.empty()) complaints.add("colour_over_life", "is of particles only");
-    if (!d.events.empty()) complaints.add("events", "are of particles only");
   } else {
     if (d.random_orientation) complaints.add("random_orientation", "is of bodies only");
-    if (d.spin.number.mean != 0 || d.spin.number.spread != 0)
-      complaints.add("spin", "is of bodies only: particles do not turn");
   }
+}
+
+/// Times must ascend; what is not drawn or has no speed is not changed either.
+void check_course(const EmitterDescription& d, Complaints& complaints) {
+  for (size_t i = 0; i < d.over_time.size(); ++i) {
+    const std::string at = fmt::format("over_time[{}]", i);
+    const EmissionKeyDescription& key = d.over_time[i];
+    if (i > 0 && !(key.time > d.over_time[i - 1].time))
+      complaints.add(at + ".time", "must be later than the one before");
+    if (!d.body.empty() && key.mass) complaints.add(at + ".mass", "is of particles only");
+    if (!d.body.empty() && key.radius) complaints.add(at + ".radius", "is of particles only");
+    if (key.life && !d.life) complaints.add(at + ".life", "needs a life");
+    if (key.spread && d.spread_deg * *key.spread > 180)
+      complaints.add(at + ".spread", "makes spread_deg more than 180 deg");
+  }
+}
+
+/// Whether the rate comes to an end by itself.
+bool rate_ends(const EmitterDescription& d) {
+  std::optional<double> last;
+  for (const EmissionKeyDescription& key : d.over_time)
+    if (key.rate) last = key.rate;
+  return d.end || d.count || d.at_most || last == 0.0;
 }
 
 }  // namespace
 
 void EmitterDescription::check(const EmitterDescription& d, Complaints& complaints) {
   check_kind(d, complaints);
+  check_course(d, complaints);
   check_positive(d.life, "life", "s", complaints);
   check_positive(d.mass, "mass", "kg", complaints);
   check_positive(d.radius, "radius", "m", complaints);
@@ -60,8 +82,9 @@ void EmitterDescription::check(const EmitterDescription& d, Complaints& complain
   if (d.end && !(*d.end > d.start)) complaints.add("end", "must be after start");
   if (!d.life) {
     if (!d.size_over_life.empty()) complaints.add("size_over_life", "needs a life");
+    if (!d.mass_over_life.empty()) complaints.add("mass_over_life", "needs a life");
     if (!d.colour_over_life.empty()) complaints.add("colour_over_life", "needs a life");
-    if (d.rate > 0 && !d.end && !d.count && !d.at_most)
+    if (d.rate > 0 && !rate_ends(d))
       complaints.add("rate", "makes more and more without end: give life, end, count or at_most");
   }
 }

@@ -18,11 +18,12 @@ struct EnumNames<RandomNumber::Kind> {
 };
 template <>
 struct EnumNames<SpawnRule::On> {
-  static constexpr std::array<std::pair<std::string_view, SpawnRule::On>, 4> values = {
+  static constexpr std::array<std::pair<std::string_view, SpawnRule::On>, 5> values = {
       {{"birth", SpawnRule::On::birth},
        {"life", SpawnRule::On::life},
        {"death", SpawnRule::On::death},
-       {"collision", SpawnRule::On::collision}}};
+       {"collision", SpawnRule::On::collision},
+       {"sink", SpawnRule::On::sink}}};
 };
 /// Direction in which particles are emitted.
 enum class EmissionDirection : uint8_t {
@@ -112,7 +113,42 @@ struct BurstDescription {
   }
 };
 
-/// Births that events of an emitter's particles cause.
+/// What is different of what leaves at a time; in between it is straight from one such to the next.
+struct EmissionKeyDescription {
+  double time = 0;  ///< [s]
+  std::optional<double> rate, speed, spread, life, mass, radius, spin;
+  std::optional<Colour> colour;
+
+  static constexpr std::string_view schema_name = "emission_key";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.time, {.name = "time",
+                     .unit = "s",
+                     .min = 0,
+                     .max = 1e9,
+                     .required = true,
+                     .doc = "after the emitter was made"});
+    v.field(d.rate, {.name = "rate", .min = 0, .max = 1e6, .doc = "factor of it"});
+    v.field(d.speed, {.name = "speed", .min = -1e6, .max = 1e6, .doc = "factor of it"});
+    v.field(d.spread, {.name = "spread", .min = 0, .max = 1e6, .doc = "factor of spread_deg"});
+    for_positive(d, [&v](auto& factor, std::string_view name) {
+      v.field(factor,
+              {.name = name, .min = 0, .max = 1e6, .exclusive_min = true, .doc = "factor of it"});
+    });
+    v.field(d.spin, {.name = "spin", .min = -1e6, .max = 1e6, .doc = "factor of it"});
+    v.field(d.colour, {.name = "colour", .doc = "in place of colours"});
+  }
+
+ private:
+  template <class Self, class F>
+  static void for_positive(Self& d, const F& f) {
+    f(d.life, "life");
+    f(d.mass, "mass");
+    f(d.radius, "radius");
+  }
+};
+
+/// What the particles or bodies of an emitter give birth to.
 struct EmitterEventDescription {
   SpawnRule::On event = SpawnRule::On::death;
   std::string emitter;
@@ -123,10 +159,10 @@ struct EmitterEventDescription {
   static constexpr std::string_view schema_name = "emitter_event";
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
-    v.field(d.event, {.name = "event", .required = true, .doc = "what happens to the particle"});
+    v.field(d.event, {.name = "event", .required = true, .doc = "what happens to one of them"});
     v.field(d.emitter, {.name = "emitter",
-                        .doc = "name of the emitter as whose particles others are born, where the "
-                               "particle is then"});
+                        .doc = "name of the emitter by which others are born, where the one is "
+                               "then"});
     v.field(d.count, {.name = "count", .min = 1, .max = 1e6, .doc = "how many at once"});
     v.field(d.rate, {.name = "rate",
                      .unit = "1/s",
@@ -161,9 +197,10 @@ struct EmitterDescription {
   double inherit = 1;
   std::optional<RandomNumberDescription> life, mass, radius;  ///< [s], [kg], [m]
   std::vector<Colour> colours;
-  std::vector<double> size_over_life;
+  std::vector<double> size_over_life, mass_over_life;
   std::vector<Colour> colour_over_life;
   std::vector<double> opacity_over_life;
+  std::vector<EmissionKeyDescription> over_time;
   bool random_orientation = false;
   RandomNumberDescription spin;  ///< [rad/s]
   std::vector<EmitterEventDescription> events;
@@ -209,6 +246,13 @@ struct EmitterDescription {
                                .max = 1000,
                                .exclusive_min = true,
                                .doc = "factors of the radius from birth to death, evenly spaced"});
+    v.field(d.mass_over_life,
+            {.name = "mass_over_life",
+             .min = 0,
+             .max = 1000,
+             .exclusive_min = true,
+             .doc = "factors of the mass from birth to death, evenly spaced; what "
+                    "it loses leaves with its velocity"});
     v.field(d.colour_over_life,
             {.name = "colour_over_life", .doc = "colours from birth to death, evenly spaced"});
     v.field(d.opacity_over_life, {.name = "opacity_over_life",
@@ -216,10 +260,12 @@ struct EmitterDescription {
                                   .max = 1,
                                   .doc = "of smoke: factors of its opacity from birth to death, "
                                          "evenly spaced"});
+    v.list(d.over_time, {.name = "over_time",
+                         .doc = "how rate, speed and the rest change with the emitter's time"});
     v.field(d.random_orientation,
             {.name = "random_orientation", .doc = "bodies: all orientations are as likely"});
-    v.object(d.spin, {.name = "spin", .doc = "bodies: about any axis [rad/s]"});
-    v.list(d.events, {.name = "events", .doc = "what the particles give birth to"});
+    v.object(d.spin, {.name = "spin", .doc = "bodies and grains: about any axis [rad/s]"});
+    v.list(d.events, {.name = "events", .doc = "what particles or bodies give birth to"});
     v.field(d.seed, {.name = "seed", .doc = "instead of one made from the scene's seed"});
   }
   static void check(const EmitterDescription& d, Complaints& complaints);

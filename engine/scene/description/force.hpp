@@ -18,8 +18,8 @@ struct EnumNames<Truncation> {
 struct SpringDescription {
   static constexpr std::string_view type_name = SpringDef::type_name;
   AnchorDescription a, b;
-  double stiffness = 100, damping = 1;
-  std::optional<double> rest_length;
+  Varying stiffness = 100, damping = 1;
+  std::optional<Varying> rest_length;
   double cable_radius = 0;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
@@ -42,15 +42,16 @@ struct SpringDescription {
   }
 };
 
-/// Pulls a point of a body to a place, as the mouse does.
-struct MouseSpringDescription {
-  static constexpr std::string_view type_name = MouseSpringDef::type_name;
+/// A force at one anchor.
+template <class Def>
+struct AnchoredDescription {
+  static constexpr std::string_view type_name = Def::type_name;
   AnchorDescription anchor;
-  MouseSpringDef spring;
+  Def force;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     v.object(d.anchor, {.name = "anchor", .required = true, .doc = "what is pulled"});
-    v.part(d.spring);
+    v.part(d.force);
   }
 };
 
@@ -113,9 +114,12 @@ template <>
 struct DescribedForce<SpringDef> {
   using type = SpringDescription;
 };
-template <>
-struct DescribedForce<MouseSpringDef> {
-  using type = MouseSpringDescription;
+template <class Def>
+requires requires(Def d) {
+  d.anchor;
+}
+struct DescribedForce<Def> {
+  using type = AnchoredDescription<Def>;
 };
 /// Meshes are described with the particles that they tie together (weave.hpp).
 template <>

@@ -30,10 +30,11 @@ std::string names_of_coordinates(const JointKindEntry& kind);
 struct JointDescription {
   JointKind kind = JointKind::spherical;
   std::string a, b;
-  Vec3 anchor = Vec3::Zero();  ///< in A's frame [m]
-  Vec3 axis{0, 0, 1};          ///< in A's frame; need not be unit
-  std::optional<Vec3> axis_b;  ///< of a universal joint, in A's frame
-  std::optional<Vec3> anchor_b;
+  Vec3 anchor = Vec3::Zero();     ///< in A's frame [m]
+  Vec3 axis{0, 0, 1};             ///< in A's frame; need not be unit
+  std::optional<Vec3> axis_b;     ///< of a universal joint, in A's frame
+  std::optional<Vec3> anchor_b;   ///< in B's frame [m]
+  std::optional<Vec3> axis_on_b;  ///< in B's frame; need not be unit
   std::optional<double> length;
   std::optional<double> start, start_deg;
   bool collide = false;
@@ -69,7 +70,13 @@ struct JointDescription {
                          .unit = "m",
                          .min = -1e7,
                          .max = 1e7,
-                         .doc = "of a distance or free joint: its end on b, in the frame of b"});
+                         .doc = "where it is on b, in the frame of b; unless given where a has it "
+                                "at the start, of a distance or free joint the origin of b"});
+    v.field(d.axis_on_b, {.name = "axis_on_b",
+                          .min = -1e9,
+                          .max = 1e9,
+                          .doc = "the axis on b, in the frame of b; unless given where a has it at "
+                                 "the start"});
     v.field(d.length, {.name = "length",
                        .unit = "m",
                        .min = 0,
@@ -127,8 +134,10 @@ struct JointDescription {
     if (!(d.axis.squaredNorm() > 1e-20))
       complaints.add("axis", "an axis of zeros has no direction");
     const bool distance = d.kind == JointKind::distance;
-    if (!distance && d.kind != JointKind::free && d.anchor_b)
-      complaints.add("anchor_b", "only a distance or free joint has two anchors");
+    if (d.axis_on_b && !(d.axis_on_b->squaredNorm() > 1e-20))
+      complaints.add("axis_on_b", "an axis of zeros has no direction");
+    if (d.axis_on_b && d.kind == JointKind::universal)
+      complaints.add("axis_on_b", "the axis on b of a universal joint is axis_b");
     if (!distance && d.length) complaints.add("length", "only a distance joint has a length");
     if (d.start && d.kind != JointKind::prismatic)
       complaints.add("start", "only a prismatic joint has one");

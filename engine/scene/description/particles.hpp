@@ -291,6 +291,7 @@ struct ParticleLookDescription {
   std::vector<double> range;
   double clarity = 0;  ///< [m]
   double foam = 1, opacity = 0.4;
+  double trail = 0;  ///< [s]
 
   static constexpr std::string_view schema_name = "particle_look";
   static constexpr std::string_view shorthand_key = "style";
@@ -317,6 +318,11 @@ struct ParticleLookDescription {
         {.name = "foam", .min = 0, .max = 1, .doc = "of a surface: how white broken liquid is"});
     v.field(d.opacity,
             {.name = "opacity", .min = 0, .max = 1, .doc = "of smoke, in the middle of a puff"});
+    v.field(d.trail, {.name = "trail",
+                      .unit = "s",
+                      .min = 0,
+                      .max = 1e6,
+                      .doc = "how far back in time the paths behind them reach; 0: none"});
   }
   static void check(const ParticleLookDescription& d, Complaints& complaints) {
     if (d.colour_by != ParticleQuantity::none && d.style != ParticleStyle::spheres)

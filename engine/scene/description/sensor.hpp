@@ -119,9 +119,34 @@ struct ContactSensorDescription {
   }
 };
 
-/// A measurement while a scene runs, without influence on it.
+/// At what distances from each other particles are.
+struct RadialDescription {
+  static constexpr std::string_view type_name = "radial_distribution";
+  std::vector<std::string> particles;
+  double range = 1;
+  int shells = 60;
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.particles,
+            {.name = "particles", .required = true, .doc = "of these systems, all together"});
+    v.field(d.range, {.name = "range",
+                      .unit = "m",
+                      .min = 0,
+                      .max = 1e7,
+                      .exclusive_min = true,
+                      .required = true,
+                      .doc = "greatest distance; at most half an edge of a periodic box"});
+    v.field(d.shells, {.name = "shells",
+                       .min = 1,
+                       .max = SensorDef::most_shells,
+                       .doc = "of equal thickness, up to the range"});
+  }
+};
+
+/// Something that is measured while a scene runs, and changes nothing.
 struct SensorDescription {
-  std::variant<GateDescription, RegionDescription, ContactSensorDescription> kind;
+  std::variant<GateDescription, RegionDescription, ContactSensorDescription, RadialDescription>
+      kind;
   int count = 1;
   Vec3 step = Vec3::Zero();
 

@@ -79,6 +79,36 @@ struct EnumNames<UpAxis> {
       {{"y", UpAxis::y}, {"z", UpAxis::z}, {"x", UpAxis::x}}};
 };
 
+/// A closed surface about a mesh that takes its place, for meshes that are open or broken; what is
+/// not given follows from the size of the mesh (geometry/wrap/wrap_mesh.hpp).
+struct WrapDescription {
+  std::optional<double> gap;
+  std::optional<double> offset;
+  std::optional<double> cell;
+
+  static constexpr std::string_view schema_name = "wrap";
+  template <class Visitor, class Self>
+  static void parameters(Visitor& v, Self& d) {
+    v.field(d.gap, {.name = "gap",
+                    .unit = "m",
+                    .min = 1e-9,
+                    .max = 1e6,
+                    .doc = "holes and slits that a ball of this diameter does not pass are closed; "
+                           "a 12th of the mesh's longest side unless given"});
+    v.field(d.offset, {.name = "offset",
+                       .unit = "m",
+                       .min = 1e-9,
+                       .max = 1e6,
+                       .doc = "how far the wrap stands off the mesh; two cells unless given"});
+    v.field(d.cell, {.name = "cell",
+                     .unit = "m",
+                     .min = 1e-9,
+                     .max = 1e6,
+                     .doc = "side of its cells; half of offset, else a quarter of gap, but from a "
+                            "128th to a 40th of the mesh's longest side unless given"});
+  }
+};
+
 /// A mesh file that shapes refer to by name. In a file a bare string stands for {"file": string}.
 struct MeshDescription {
   std::string file;
@@ -88,6 +118,7 @@ struct MeshDescription {
   MeshModeDescription how;
   bool centre = false;
   std::optional<double> weld;
+  std::optional<WrapDescription> wrap;
 
   static constexpr std::string_view shorthand_key = "file";
   static constexpr std::string_view schema_name = "mesh";
@@ -111,6 +142,8 @@ struct MeshDescription {
                      .max = 1e6,
                      .doc = "vertices this near are one, and corners this near to a side lie on "
                             "it; a billionth of the mesh's size unless given"});
+    v.object(d.wrap, {.name = "wrap",
+                      .doc = "a closed surface about the mesh takes its place; {} is enough"});
   }
   static void check(const MeshDescription& d, Complaints& complaints) {
     if (d.stretch && (d.stretch->array() == 0).any())
@@ -188,10 +221,13 @@ struct MeshShapeDescription {
   static constexpr std::string_view type_name = "mesh";
   std::string mesh;
   MeshModeDescription how;
+  std::optional<WrapDescription> wrap;
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {
     TriangleMeshShapeDescription::parameters(v, d);
     v.part(d.how);
+    v.object(d.wrap, {.name = "wrap",
+                      .doc = "a closed surface about the mesh takes its place; {} is enough"});
   }
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/core/parameters.hpp"
-#include "engine/math/time_course.hpp"
 #include "engine/math/types.hpp"
+#include "engine/math/varying.hpp"
 
 #include <algorithm>
 #include <array>
@@ -62,16 +62,7 @@ std::optional<Colour> colour_from_text(std::string_view text);
 const std::vector<std::pair<std::string_view, Colour>>& named_colours();
 std::vector<std::string> palette_names();
 
-/// A number that may change over time: its course, or null, and what it is at t = 0.
-struct Varying {
-  double value = 0;
-  std::shared_ptr<const TimeCourse> course;
-  std::string text;  ///< of a course that is an expression, as the file has it
-
-  Varying() = default;
-  Varying(double constant) : value(constant) {}
-};
-/// Its course times a unit; null where it stays the same.
+/// The course of a number times a unit; null where it stays the same.
 std::shared_ptr<const TimeCourse> course_of(const Varying& number, double unit = 1);
 
 /// Names of an enumeration's values in scene files; specialise `values`.

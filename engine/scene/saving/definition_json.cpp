@@ -36,21 +36,29 @@ Json material_json(const Material& material) {
   return out;
 }
 
+Json shape_json(const BodyShapeDef& part) {
+  Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
+  for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
+    shape[std::string(p.parameter.name)] = number_of(part.shape, p);
+  Placement place;
+  place.position = part.pose.x;
+  place.turn(part.pose.q);
+  if (!place.position.isZero(0)) shape["position"] = to_json(place.position);
+  if (place.euler_deg) shape["euler_deg"] = to_json(*place.euler_deg);
+  if (place.orientation) shape["orientation"] = to_json(*place.orientation);
+  return shape;
+}
+
 Json body_json(const BodyDef& def) {
   BodyDescription d = describe_body(def);
   d.placement.turn(def.pose.q);
   Json out = write_object(d);
   Json shapes = Json::array();
   for (const BodyShapeDef& part : def.shapes) {
-    Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
-    for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
-      shape[std::string(p.parameter.name)] = number_of(part.shape, p);
-    Placement place;
-    place.position = part.pose.x;
-    place.turn(part.pose.q);
-    if (!place.position.isZero(0)) shape["position"] = to_json(place.position);
-    if (place.euler_deg) shape["euler_deg"] = to_json(*place.euler_deg);
-    if (place.orientation) shape["orientation"] = to_json(*place.orientation);
+    Json shape = shape_json(part);
+    // That of the first one is the body's.
+    if (Json own = material_json(part.material); own != material_json(def.shapes[0].material))
+      shape["material"] = std::move(own);
     shapes.push_back(std::move(shape));
   }
   if (shapes.size() == 1)

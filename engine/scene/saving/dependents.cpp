@@ -4,7 +4,9 @@
 #include "engine/scene/repetition.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -73,8 +75,16 @@ struct Gone {
 class Search {
  public:
   explicit Search(const Gone& gone) : gone_(gone) {}
+  /// Calls `each` for every such text, with the key that it stands under.
+  using Each = std::function<void(const Path&, std::string_view key, const std::string& text)>;
+  void all_in(const JsonNode& root, const Each& each) {
+    each_ = &each;
+    (void)in(root);
+    each_ = nullptr;
+  }
 
   std::optional<Path> in(const JsonNode& root) {
+    found_.clear();
     for (size_t i = 0; i < root.keys.size(); ++i) {
       // What stands among the definitions has names as keys, which mean nothing here.
       if (look(root.items[i], root.keys[i], {{root.keys[i], {}}}, 0)) return found_;
@@ -86,6 +96,8 @@ class Search {
   bool look(const JsonNode& node, std::string_view key, Path path, int depth) {
     if (node.is(JsonNode::Kind::string)) {
       if (!names(node.string, key, path)) return false;
+      if (each_) (*each_)(path, key, node.string);
+      if (each_) return false;
       found_ = std::move(path);
       return true;
     }
@@ -113,6 +125,7 @@ class Search {
 
   const Gone& gone_;
   Path found_;
+  const Each* each_ = nullptr;
 };
 
 const JsonNode* node_at(const JsonNode& root, std::span<const PathStep> path) {
@@ -197,7 +210,60 @@ TakenAlong taken(const Path& path) {
   return out;
 }
 
+bool is_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// The text with `to` in the place of `name` wherever `before` stands in front of it and no letter
+/// behind it.
+std::string with_name(std::string text, const std::string& before, const std::string& name,
+                      const std::string& to) {
+  const std::string head = before + name;
+  for (size_t at = 0; (at = text.find(head, at)) != std::string::npos;) {
+    const size_t end = at + head.size();
+    const bool whole =
+        (end == text.size() || !is_letter(text[end])) &&
+        (at == 0 || !(is_letter(text[at - 1]) || text[at - 1] == '.') || before.front() == '.');
+    if (whole) text.replace(at + before.size(), name.size(), to);
+    at += before.size() + (whole ? to.size() : name.size());
+  }
+  return text;
+}
+
+/// An expression over quantities, or a name with the number of a copy behind it.
+std::string renamed_text(const Gone& gone, std::string_view key, const std::string& text,
+                         const std::string& to) {
+  if (!among(expression_keys, key)) return to + text.substr(gone.name.size());
+  std::string out = with_name(text, gone.list + ".", gone.name, to);
+  if (gone.list == "forces" || gone.list == "particles")
+    out = with_name(out, "ledger.forces.", gone.name, to);
+  return gone.list == "bodies" ? with_name(out, ".holds.", gone.name, to) : out;
+}
+
 }  // namespace
+
+Result<std::string> renamed(const std::string& scene, const std::string& list,
+                            const std::string& name, const std::string& to) {
+  const auto refused = [](std::string why) {
+    return Error{ErrorCode::invalid_argument, std::move(why), {}, {}};
+  };
+  if (to.empty() || !std::ranges::all_of(to, is_letter))
+    return refused("a name is of letters, digits and _ alone");
+  JsonTextEdit text(scene);
+  if (!text.value(Path{} / list / name))
+    return refused(fmt::format("{} is not among the {} of the file", name, list));
+  if (text.value(Path{} / list / to))
+    return refused(fmt::format("there is a {} already among the {}", to, list));
+  FaultList faults;
+  const auto tree = parse_json(scene, "", faults);
+  if (!tree) return refused("the file is no scene");
+  const Gone gone{list, name};
+  Search(gone).all_in(*tree, [&](const Path& path, std::string_view key, const std::string& said) {
+    text.set(path, "\"" + renamed_text(gone, key, said, to) + "\"");
+  });
+  text.rename(Path{} / list / name, to);
+  return text.text();
+}
 
 std::string TakenAlong::words() const {
   constexpr std::pair<std::string_view, std::string_view> kinds[] = {

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/result.hpp"
 #include "engine/scene/saving/json_text_edit.hpp"
 
 #include <string>
@@ -26,8 +27,13 @@ struct TakenAlong {
 std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
                                         const std::string& name);
 
-/// The description that creates this copy of a body by `count`, and so cannot omit it:
-/// "joints.link"; "" if there is none.
+/// The text of a scene in which a thing of a list is called `to`, wherever it is named: copies and
+/// expressions included. Error: it is not in the file, or `to` is taken or no name.
+Result<std::string> renamed(const std::string& scene, const std::string& list,
+                            const std::string& name, const std::string& to);
+
+/// What holds this copy of a body, by a description that makes several (`count`) and cannot leave
+/// one out: "joints.link"; "": nothing does.
 std::string held_by_count(const JsonTextEdit& text, const std::string& body);
 
 }  // namespace tumble

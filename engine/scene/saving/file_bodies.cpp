@@ -176,6 +176,7 @@ void FileChanges::operator()(const ChangedBody& c) {
   if (c.after.mass != c.before.mass && !c.after.mass) edit.remove(path / "mass");
   merge(path, before, after);
   const std::vector<ShapeGroup> old = shape_groups(c.before), now = shape_groups(c.after);
+  if (old.size() != now.size()) return change_count_of_shapes(c, name, old, now);
   for (size_t g = 0; g < std::min(old.size(), now.size()); ++g) {
     const ChangedGroup group{g, now.size(), c.before.shapes[old[g].first],
                              c.after.shapes[now[g].first]};
@@ -212,6 +213,52 @@ void FileChanges::keep_what_copies_have(const std::string& name, const Json& bef
     }
 }
 
+/// Shapes that are the same at the beginning and at the end stay; what is between them goes, and
+/// what is there now comes behind all others.
+void FileChanges::change_count_of_shapes(const ChangedBody& c, const BodyName& name,
+                                         const std::vector<ShapeGroup>& old,
+                                         const std::vector<ShapeGroup>& now) {
+  if (name.copy) {
+    left_out.push_back(fmt::format(
+        "{}: its shapes are common to all copies, so that one cannot have its own", c.name));
+    return;
+  }
+  const auto same = [&](const ShapeGroup& a, const ShapeGroup& b) {
+    const BodyShapeDef &p = c.before.shapes[a.first], &q = c.after.shapes[b.first];
+    return p.source == q.source && p.shape.mesh == q.shape.mesh && shape_json(p) == shape_json(q) &&
+           material_json(p.material) == material_json(q.material);
+  };
+  size_t first = 0, last = 0;
+  const size_t least = std::min(old.size(), now.size());
+  while (first < least && same(old[first], now[first])) ++first;
+  while (first + last < least && same(old[old.size() - 1 - last], now[now.size() - 1 - last]))
+    ++last;
+  const Path body = Path{} / "bodies" / name.base;
+  for (size_t g = old.size() - last; g-- > first;) edit.remove(shape_path(name, g));
+  if (edit.value(body / "shapes") && !edit.value(at_index(body / "shapes", 0)))
+    edit.remove(body / "shapes");
+  for (size_t g = first; g < now.size() - last; ++g) {
+    const BodyShapeDef& part = c.after.shapes[now[g].first];
+    if (made_of_mesh(part.shape.type) || part.source) {
+      left_out.push_back(fmt::format("{}: the file of a mesh that was added is not known", c.name));
+      continue;
+    }
+    Json shape = shape_json(part);
+    // As the others of this body, where it is.
+    const bool alike =
+        g > 0 && material_json(part.material) == material_json(c.after.shapes[0].material);
+    if (!alike || edit.value(shape_path(name, 0) / "material"))
+      shape["material"] = material_json(part.material);
+    // One shape stands under "shape", several under "shapes".
+    if (const auto only = edit.value(body / "shape")) {
+      edit.set(body / "shape", "[" + std::string(*only) + "]");
+      edit.rename(body / "shape", "shapes");
+    }
+    if (!edit.append(body / "shapes", one_line(shape)))
+      set(body / "shapes", Json::array({std::move(shape)}));
+  }
+}
+
 FileChanges::Path FileChanges::shape_path(const BodyName& name, size_t index) const {
   const Path body = Path{} / "bodies" / name.base;
   if (!edit.value(body / "shape")) return at_index(body / "shapes", index);
@@ -238,6 +285,15 @@ void FileChanges::change_shape(const ChangedBody& c, const BodyName& name,
   const Vec3 from = place(group.before), to = place(group.after);
   if (!name.copy && (to - from).norm() > 1e-12 * (1 + from.norm()))
     set(shape_path(name, index) / "position", to_json(to));
+  if (!name.copy && !of_mesh && !(group.before.pose.q.coeffs() == group.after.pose.q.coeffs())) {
+    const Path shape = shape_path(name, index);
+    for (const char* key : {"orientation", "axis", "angle_deg", "euler_deg"})
+      edit.remove(shape / key);
+    Placement turned;
+    turned.turn(group.after.pose.q);
+    if (turned.euler_deg) set(shape / "euler_deg", to_json(*turned.euler_deg));
+    if (turned.orientation) set(shape / "orientation", to_json(*turned.orientation));
+  }
   const auto mesh = [](const BodyShapeDef& s) { return s.source ? s.source->mesh : s.shape.mesh; };
   if (mesh(group.before) && mesh(group.after) && mesh(group.before) != mesh(group.after))
     scale_mesh(c, name, index, *mesh(group.before), *mesh(group.after));

@@ -162,9 +162,12 @@ void FileChanges::operator()(const AddedSpring& c) {
     out["point"] = to_json(anchor.point);
     return out;
   };
-  const Json out = {{"type", "spring"},         {"a", end(c.def.a, c.a)},
-                    {"b", end(c.def.b, c.b)},   {"stiffness", c.def.stiffness},
-                    {"damping", c.def.damping}, {"rest_length", c.def.rest_length}};
+  const Json out = {{"type", "spring"},
+                    {"a", end(c.def.a, c.a)},
+                    {"b", end(c.def.b, c.b)},
+                    {"stiffness", c.def.stiffness.value},
+                    {"damping", c.def.damping.value},
+                    {"rest_length", c.def.rest_length.value}};
   set(Path{} / "forces" / c.name, out);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/scene/build/mesh_parts.hpp"
 #include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
@@ -82,6 +83,9 @@ struct FileChanges {
   bool change_mode(const ChangedBody& c, const BodyName& name, const ChangedGroup& group,
                    const std::shared_ptr<const MeshSource>& before,
                    const std::shared_ptr<const MeshSource>& after);
+  void change_count_of_shapes(const ChangedBody& c, const BodyName& name,
+                              const std::vector<ShapeGroup>& old,
+                              const std::vector<ShapeGroup>& now);
   void change_shape(const ChangedBody& c, const BodyName& name, const ChangedGroup& group);
   /// A mesh that has grown is the file's with another `scale`.
   void scale_mesh(const ChangedBody& c, const BodyName& name, size_t index,

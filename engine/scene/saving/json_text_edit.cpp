@@ -164,6 +164,38 @@ void JsonTextEdit::add_member(Span object, std::string_view name, std::string_vi
   if (!comma) text_.insert(last.value.end, ",");
 }
 
+bool JsonTextEdit::append(const Path& array, std::string_view value) {
+  const auto around = find(array, array.size());
+  if (!around || text_[around->begin] != '[') return false;
+  const std::vector<Span> all = items(*around);
+  const std::string item(value);
+  if (all.empty()) {
+    text_.replace(around->begin, around->end - around->begin, "[" + item + "]");
+    return true;
+  }
+  const Span last = all.back();
+  const size_t line = line_begin(last.begin);
+  const std::string between =
+      blank(line, last.begin) ? ",\n" + text_.substr(line, last.begin - line) : ", ";
+  const size_t next = skip_space(last.end);
+  if (text_[next] == ',') text_.erase(next, 1);  // which some writers leave behind the last item
+  text_.insert(last.end, between + item);
+  return true;
+}
+
+bool JsonTextEdit::rename(const Path& path, std::string_view key) {
+  if (path.empty() || path.back().index) return false;
+  const auto around = find(path, path.size() - 1);
+  if (!around || text_[around->begin] != '{') return false;
+  for (const Member& member : members(*around)) {
+    if (member.name != path.back().key) continue;
+    text_.replace(member.key.begin, member.key.end - member.key.begin,
+                  "\"" + std::string(key) + "\"");
+    return true;
+  }
+  return false;
+}
+
 bool JsonTextEdit::remove(const Path& path) {
   if (path.empty()) return false;
   const auto around = find(path, path.size() - 1);

@@ -28,6 +28,10 @@ class JsonTextEdit {
   /// Removes a member of an object or an item of an array, and its line where it had one for
   /// itself. False when there is none.
   bool remove(const Path& path);
+  /// One more item behind those of an array. False where there is no array.
+  bool append(const Path& array, std::string_view value);
+  /// A member of an object is called otherwise from now on. False when there is none.
+  bool rename(const Path& path, std::string_view key);
 
  private:
   struct Span {

@@ -80,6 +80,9 @@ class ObjectValidator final : public StructVisitor {
     for (size_t i = 0; i < value.course->points().size(); ++i)
       check(value.course->points()[i].second, p, element(path, i) + "[1]");
   }
+  void check(const VaryingVec3& value, const Parameter& p, const std::string& path) {
+    for (size_t i = 0; i < 3; ++i) check(value.of[i], p, element(path, i));
+  }
   void check(int value, const Parameter& p, const std::string& path) {
     check(double(value), p, path);
   }

@@ -49,10 +49,14 @@ Json json_of(const Colour& colour) {
 
 Json json_of(const Varying& number) {
   if (!number.course) return number.value;
-  if (!number.text.empty()) return number.text;
+  if (!number.course->text().empty()) return "=" + number.course->text();
   Json out = Json::array();
   for (const auto& [t, value] : number.course->points()) out.push_back(Json::array({t, value}));
   return out;
+}
+
+Json json_of(const VaryingVec3& v) {
+  return Json::array({json_of(v.of[0]), json_of(v.of[1]), json_of(v.of[2])});
 }
 
 Json json_of(const TickRate& rate) {

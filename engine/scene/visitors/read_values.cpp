@@ -106,11 +106,18 @@ void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, Va
     std::string text = node.string.substr(1);
     const auto expression = Expression::parse(text);
     if (expression && varies(*expression, c)) {
-      out.text = node.string;
       return take_course(c, node, path, TimeCourse::expression(std::move(text), c.parameters), out);
     }
   }
   if (const auto value = number(c, node, path)) out = *value;
+}
+
+void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, VaryingVec3& out) {
+  if (!node.is(Kind::array) || node.items.size() != 3)
+    return c.fault(node, path,
+                   "must be an array of 3 numbers, expressions in t or tables, got " + brief(node));
+  for (size_t i = 0; i < 3; ++i)
+    read_leaf(c, node.items[i], path + "[" + std::to_string(i) + "]", out.of[i]);
 }
 
 void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, int& out) {

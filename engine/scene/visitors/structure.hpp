@@ -57,9 +57,9 @@ struct LeafListRef {
 };
 
 /// A value without keys of its own.
-struct Leaf
-    : std::variant<double*, Varying*, int*, uint64_t*, bool*, std::string*, Vec3*, Quat*,
-                   std::array<int, 3>*, Colour*, TickRate*, EnumRef, OptionalLeafRef, LeafListRef> {
+struct Leaf : std::variant<double*, Varying*, VaryingVec3*, int*, uint64_t*, bool*, std::string*,
+                           Vec3*, Quat*, std::array<int, 3>*, Colour*, TickRate*, EnumRef,
+                           OptionalLeafRef, LeafListRef> {
   using variant::variant;
 };
 

@@ -1,6 +1,7 @@
 #include "engine/world/sensors/sense.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/dynamics/particles/radial_distribution.hpp"
 #include "engine/world/sensors/tolerances.hpp"
 #include "engine/world/state.hpp"
 
@@ -228,6 +229,20 @@ void fill_region(const WorldState& s, const SensorDef& def, SensorFrame& out) {
   }
 }
 
+/// At what distances from each other the particles are now. They are in one box, or in none.
+void fill_radial(const WorldState& s, const SensorDef& def, SensorFrame& out) {
+  std::vector<Vec3> points;
+  std::optional<PeriodicBox> box;
+  for (const ParticleSystemId id : def.only_systems) {
+    if (!s.particle_ids.contains(id)) continue;
+    const ParticleSystem& p = s.particles[id.index];
+    points.insert(points.end(), p.x.begin(), p.x.end());
+    box = !box || *box == p.box ? p.box : PeriodicBox{};
+  }
+  out.gone = !box;
+  out.shells = radial_distribution(points, box.value_or(PeriodicBox{}), def.range, def.shells);
+}
+
 void fill(const WorldState& s, uint32_t slot, SensorFrame& out) {
   const SensorDef& def = s.sensors.defs[slot];
   const SensorState& state = s.sensors.states[slot];
@@ -254,6 +269,9 @@ void fill(const WorldState& s, uint32_t slot, SensorFrame& out) {
   out.mass = 0;
   if (def.kind == SensorKind::contact) out.gone = !s.bodies.find(def.a);
   if (def.kind == SensorKind::region && !out.gone) fill_region(s, def, out);
+  out.range = def.range;
+  out.shells.clear();
+  if (def.kind == SensorKind::radial) fill_radial(s, def, out);
 }
 
 }  // namespace
@@ -277,6 +295,32 @@ void make_sensor_frames(const WorldState& s, std::vector<SensorFrame>& out) {
     if (s.sensors.ids.alive(i)) fill(s, i, *next++);
 }
 
+namespace {
+
+/// "g.0", "g.1", ...
+std::string_view shell_name(size_t k) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (size_t i = 0; i < SensorDef::most_shells; ++i) all.push_back("g." + std::to_string(i));
+    return all;
+  }();
+  return names[k];
+}
+
+/// The highest shell, and the distance of its middle; then all.
+std::vector<SensorValue> radial_values(const SensorFrame& s) {
+  const auto highest = std::ranges::max_element(s.shells);
+  const bool any = highest != s.shells.end() && *highest > 0;
+  const double thickness = s.shells.empty() ? 0 : s.range / double(s.shells.size());
+  std::vector<SensorValue> out = {
+      {"peak", "", any ? *highest : 0},
+      {"peak_distance", "m", any ? (double(highest - s.shells.begin()) + 0.5) * thickness : 0}};
+  for (size_t k = 0; k < s.shells.size(); ++k) out.push_back({shell_name(k), "", s.shells[k]});
+  return out;
+}
+
+}  // namespace
+
 std::vector<SensorValue> sensor_values(const SensorFrame& s) {
   switch (s.kind) {
     case SensorKind::gate:
@@ -292,6 +336,8 @@ std::vector<SensorValue> sensor_values(const SensorFrame& s) {
               {"bodies", "", double(s.inside.size())},
               {"particles", "", double(s.particles)},
               {"mass", "kg", s.mass}};
+    case SensorKind::radial:
+      return radial_values(s);
     case SensorKind::contact:
       break;
   }

@@ -67,6 +67,15 @@ Status validate(const SensorDef& def) {
     if (def.a == def.b) return fault("a and b are the same body");
     return {};
   }
+  if (def.kind == SensorKind::radial) {
+    if (!(def.range > 0 && std::isfinite(def.range)))
+      return fault(fmt::format("range must be > 0, got {} m", def.range));
+    if (def.shells < 1 || def.shells > SensorDef::most_shells)
+      return fault(
+          fmt::format("shells must be 1 to {}, got {}", SensorDef::most_shells, def.shells));
+    if (def.only_systems.empty()) return fault("a radial distribution is of particle systems");
+    return {};
+  }
   if (!def.pose.x.allFinite() || !def.pose.q.coeffs().allFinite())
     return fault("pose is not finite");
   if (is_flat(def.shape.form) != (def.kind == SensorKind::gate))
@@ -95,6 +104,8 @@ void write_sensor_def(ByteWriter& out, const SensorDef& def) {
   out.value(def.span);
   out.value(def.a);
   out.value(def.b);
+  out.value(def.range);
+  out.value(def.shells);
 }
 
 SensorDef read_sensor_def(ByteReader& in) {
@@ -112,7 +123,9 @@ SensorDef read_sensor_def(ByteReader& in) {
   in.value(def.span);
   in.value(def.a);
   in.value(def.b);
-  if (def.kind > SensorKind::contact || def.shape.form > SensorForm::cylinder || !validate(def))
+  in.value(def.range);
+  in.value(def.shells);
+  if (def.kind > SensorKind::radial || def.shape.form > SensorForm::cylinder || !validate(def))
     in.fail();
   return def;
 }

@@ -20,6 +20,7 @@ enum class SensorKind : uint8_t {
   gate,     ///< centres that pass through a flat shape, and in which direction
   region,   ///< centres inside a solid shape
   contact,  ///< whether one body touches another one, or any
+  radial,   ///< the radial distribution g(r) of particles
 };
 
 /// Forms of gates (flat, in the plane y = 0 of their frame) and of regions.
@@ -54,6 +55,11 @@ struct SensorDef {
 
   // Contacts.
   BodyId a, b;  ///< b null: any other body
+
+  // Radial distributions, of the particles of `only_systems` together.
+  double range = 1;      ///< greatest distance [m]
+  uint32_t shells = 60;  ///< of equal thickness up to there
+  static constexpr uint32_t most_shells = 100;
 };
 
 /// The error says which value is wrong. Ids need not exist.

@@ -32,6 +32,10 @@ struct SensorFrame {
   bool touching = false;
   uint64_t touches = 0;       ///< number of times that contact began, since its creation
   Vec3 force = Vec3::Zero();  ///< mean force on a over the last tick [N]
+
+  // Of a radial distribution.
+  double range = 0;            ///< [m]
+  std::vector<double> shells;  ///< g(r) of shells of equal thickness up to it [-]
 };
 
 /// One of the readings of a sensor.

@@ -228,6 +228,11 @@ TEST_CASE(
   CHECK(tumble_program({"mesh", star, "--sdf", "--cell", "0.1", "--error", "0.1"}).code == 2);
   CHECK(tumble_program({"mesh", star, "--decompose", "--exact", "--concavity", "0.1"}).code == 2);
   CHECK(tumble_program({"mesh", star, "--decompose", "--out", "/nowhere/at/all.obj"}).code == 5);
+  const fs::path never = folder / "never";
+  CHECK(
+      tumble_program({"mesh", star, "--sdf", "--cell", "1e-7", "--slices", never.string()}).code !=
+      0);
+  CHECK_FALSE(fs::exists(never));  // a folder that it made for nothing goes again
   const ProgramRun large = tumble_program({"mesh", star, "--sdf", "--cell", "1e-7"});
   CHECK(large.code == 3);
   CHECK(mentions(large.err, "would do"));

@@ -282,6 +282,44 @@ TEST_CASE("clean-up and faults are told") {
   CHECK(told);
 }
 
+TEST_CASE("an open mesh is wrapped when asked, and has volume, pieces and a field then") {
+  TempFolder folder;
+  // A tray of 1 m without a lid, and a sheet that passes through its wall.
+  const std::string tray =
+      write_text(folder / "tray.obj",
+                 "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 .4 0\nv 1 .4 0\nv 1 .4 1\nv 0 .4 1\n"
+                 "v .5 .2 .5\nv 1.2 .2 .5\nv 1.2 .2 .7\n"
+                 "f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\nf 9 10 11\n");
+  const Json open = mesh_facts_of(tray);
+  CHECK(open["volume"].is_null());
+  CHECK(open["faults"].dump().find("wrap it") != std::string::npos);
+  const std::string out = (folder / "wrap.obj").string();
+  const std::vector<std::string> coarse = {"--wrap=0.1", "--wrap-cell", "0.05"};
+  std::vector<std::string> all = coarse;
+  for (const char* more : {"--sdf", "--decompose", "--concavity", "0.1"}) all.push_back(more);
+  const Json m = mesh_facts_of(tray, all);
+  CHECK(m["solid"] == true);
+  CHECK(m["faults"].empty());
+  CHECK(m["wrap"]["missing"] == 0);
+  CHECK(m["wrap"]["added"].get<double>() > 0.09);
+  CHECK(m["wrap"]["added"].get<double>() <= m["wrap"]["bound"].get<double>());
+  // Walls of .2 m by an offset of .1: between those of bare walls and a filled tray.
+  CHECK(m["volume"].get<double>() > 0.2 * (1 + 4 * 0.4));
+  CHECK(m["volume"].get<double>() < 1.2 * 1.2 * 0.6);
+  CHECK(m["decomposition"]["pieces"].size() > 3);
+  CHECK(m["distance_field"]["blocks"].get<size_t>() > 0);
+  // What is written is what is told of.
+  std::vector<std::string> written = coarse;
+  for (const std::string& more : {std::string("--out"), out}) written.push_back(more);
+  CHECK(mesh_facts_of(tray, written)["wrap"]["out"] == out);
+  CHECK(mesh_facts_of(out)["volume"].get<double>() ==
+        doctest::Approx(m["volume"].get<double>()).epsilon(1e-9));
+  for (const char* bad : {"--wrap=no", "--wrap=-1", "--wrap=1e9"})
+    CHECK(tumble_program({"mesh", tray, bad}).code == 2);
+  CHECK(tumble_program({"mesh", tray, "--out", out}).code == 2);
+  CHECK(tumble_program({"mesh", tray, "--wrap", "--wrap-cell", "1e-6"}).code == 3);
+}
+
 TEST_CASE("what cannot be loaded is 3, wrong usage 2, and stdout stays empty") {
   TempFolder folder;
   const std::string cube = (assets / "l_part.obj").string();

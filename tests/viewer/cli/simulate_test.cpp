@@ -337,6 +337,20 @@ TEST_CASE("Ctrl-C and SIGTERM end a long run with 130 and 143 and whole files") 
   }
 }
 
+TEST_CASE("--convergence ends with Ctrl-C within its first run") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  ProgramOptions options;
+  const auto begun = std::chrono::steady_clock::now();
+  options.signal_when = [&] {
+    return std::chrono::steady_clock::now() - begun > std::chrono::milliseconds(400) ? SIGINT : 0;
+  };
+  const ProgramRun run =
+      tumble_program({"simulate", scene, "--seconds", "100000", "--convergence"}, options);
+  CHECK(run.code == 130);
+  CHECK(run.out.empty());
+}
+
 TEST_CASE("scenes and mesh answer in text and JSON") {
   const ProgramRun scenes = tumble_program({"scenes", "--json"});
   CHECK(scenes.code == 0);

@@ -1,5 +1,6 @@
 // Reference: free fall in closed form; the same bits for any number of threads; ticks counted by
 // hand.
+#include "engine/dynamics/simd/simd_target.hpp"
 #include "tests/viewer/cli/program.hpp"
 
 #include <doctest/doctest.h>
@@ -91,4 +92,41 @@ TEST_CASE(
   CHECK(alone.code == 1);
   CHECK_MESSAGE(mentions(alone.out, "ball, which only one of the two worlds has"), alone.out);
   CHECK_FALSE(mentions(alone.out, "inf"));
+}
+
+TEST_CASE("threads and instruction sets are chosen like settings, and named where they differ") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const auto found = answer({scene, "--a", "simd=" + simd_targets().back(), "--a", "threads=2",
+                             "--b", "threads=3", "--seconds", "0.5"},
+                            0);
+  REQUIRE(found["differences"].size() == 2);
+  CHECK(found["differences"][0]["path"] == "threads");
+  CHECK(found["differences"][1]["path"] == "simd");
+  CHECK(found["differences"][1]["a"] == simd_targets().back());
+  for (const std::string wrong : {"simd=ABACUS", "threads=-1", "threads=many"}) {
+    const ProgramRun run = tumble_program({"verify", scene, "--b", wrong});
+    CHECK(run.code == 2);
+    CHECK_MESSAGE(mentions(run.err, "--b " + wrong), run.err);
+  }
+}
+
+TEST_CASE("bodies that stand in other slots are compared by name, and a contact is named") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", R"({"tumble_scene": 1,
+    "parameters": {"n": 1}, "bodies": {
+    "floor": {"type": "static", "shape": {"type": "half_space"}},
+    "first": {"shape": {"type": "sphere", "radius": 0.1}, "position": [3, 5, 0],
+              "repeat": {"type": "stack", "count": "$n", "step": [1, 0, 0]}},
+    "ball": {"shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0.1, 0]}}})");
+  const auto found = answer({scene, "--b", "parameters.n=2", "--seconds", "0.1"}, 1);
+  CHECK(found["first"]["what"] == "first[1]");
+  CHECK(found["first"]["angle"] == 0);
+  CHECK(found["first"]["speed"] == 0);
+  const auto heavy = answer({scene, "--b", "settings.gravity=[0,-20,0]"}, 1);
+  CHECK(heavy["first_contact"].get<std::string>().find("ball") != std::string::npos);
+  const auto body =
+      answer({scene, "--b", "bodies.ball.mass=3", "--tolerance", "0.01", "--seconds", "0.1"}, 0);
+  CHECK(body["differences"].back()["path"] == "bodies.ball.mass");
+  CHECK(body["differences"].back()["b"] == "3");
 }

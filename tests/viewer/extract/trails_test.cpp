@@ -98,3 +98,55 @@ TEST_CASE("trails of many bodies and long times stay few lines, whichever ticks 
     CHECK(scene.lines.size() <= 60000);
   }
 }
+
+TEST_CASE("particles have paths of the length that their look says, through boxes none") {
+  ParticleFrame system;
+  system.id = {0, 1};
+  system.look.trail = 0.25;
+  system.ids = {4, 9};
+  system.colour = {Vec3f(1, 0, 0), Vec3f(0, 1, 0)};
+  system.radius = {0.1, 0.1};
+  system.mass = {1, 1};
+  system.box = {Vec3(-1, -1, -1), Vec3(2, 0, 0)};
+  Trails trails;
+  trails.start(0);
+  Frame last, now;
+  const auto at = [&](uint64_t tick) {
+    Frame frame;
+    frame.tick = tick;
+    frame.time = double(tick) / 60;
+    system.x = {Vec3(0, frame.time, 0), system.box.wrapped({0.9 + 0.6 * frame.time, 0, 0})};
+    frame.particles = {std::make_shared<const ParticleFrame>(system)};
+    return frame;
+  };
+  for (uint64_t tick = 0; tick <= 60; ++tick) {
+    last = now;
+    now = at(tick);
+    trails.see(now);
+  }
+  RenderScene scene;
+  trails.draw(last, now, 1, scene);
+  double lowest = 9, least = 9, greatest = -9;
+  size_t red = 0;
+  for (const LineSegment& line : scene.lines) {
+    const bool first = line.colour.x() == 1;
+    red += first;
+    if (first) lowest = std::min(lowest, double(line.a.y()));
+    if (first) continue;
+    least = std::min(least, double(line.a.x()));
+    greatest = std::max(greatest, double(line.b.x()));
+  }
+  CHECK(red == 15);  // a quarter of a second at 60 Hz
+  CHECK(lowest == doctest::Approx(45.0 / 60));
+  CHECK(least == doctest::Approx(-0.65).epsilon(1e-5));  // 1.5 - 0.15, seen from the other side
+  CHECK(greatest == doctest::Approx(-0.5));
+
+  SUBCASE("to one side of a face only") {
+    now = at(61);
+    trails.see(now);
+    for (uint64_t tick = 0; tick <= 12; ++tick) trails.see(at(tick));
+    scene.clear_content();
+    trails.draw(at(11), at(12), 1, scene);
+    for (const LineSegment& line : scene.lines) CHECK((line.a - line.b).norm() < 0.1f);
+  }
+}

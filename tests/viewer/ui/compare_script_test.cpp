@@ -1,20 +1,195 @@
 // Reference: worlds that are stepped by hand with the same settings and the same commands.
+#include "engine/dynamics/simd/simd_target.hpp"
+#include "engine/scene/build.hpp"
+#include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
-#include "viewer/app/session/changed_settings.hpp"
 #include "viewer/app/session/second_world.hpp"
+#include "viewer/app/verify/differences.hpp"
+#include "viewer/capture/atomic_file.hpp"
+
+#include <cmath>
 
 #include <doctest/doctest.h>
 
 using namespace tumble;
 using namespace tumble::test;
 
+namespace {
+
+WorldChoice choice_of(const WorldSettings& settings) {
+  WorldChoice choice;
+  choice.settings = settings;
+  return choice;
+}
+
+/// A ball over a floor, and as many marbles beside it as the scene has numbers for.
+constexpr std::string_view numbered_scene = R"({"tumble_scene": 1,
+  "parameters": {"height": {"value": 2, "min": 1, "max": 9}, "marbles": 2, "g": 9.81},
+  "settings": {"gravity": [0, "= -g", 0]},
+  "bodies": {
+    "floor": {"type": "static", "shape": {"type": "half_space"}},
+    "marble": {"shape": {"type": "sphere", "radius": 0.1}, "position": [3, 0.1, 0],
+               "repeat": {"type": "stack", "count": "$marbles", "step": [0.5, 0, 0]}},
+    "ball": {"shape": {"type": "sphere", "radius": 0.2}, "position": [0, "$height", 0]}}})";
+
+/// The window with that scene, which runs for so many ticks.
+struct NumberedRig {
+  std::unique_ptr<Device> device = make_null_device();
+  Rig rig{*device};
+
+  explicit NumberedRig(int ticks) {
+    rig.picture = {1400, 1600, 1};
+    const std::string file = (rig.folder.path() / "numbers.json").string();
+    REQUIRE(write_file(file, numbered_scene).ok());
+    rig.app->session().set_paused(true);
+    rig.app->open(file);
+    rig.play("wait 3\nkey K\nwait 2");
+    REQUIRE(rig.app->session().advance(uint64_t(ticks)).ok());
+    rig.play("wait 3");
+  }
+  WorldChoice choice() const {
+    WorldChoice out = choice_of(rig.app->settings());
+    out.threads = 1;
+    out.numbers = {{"height", 2}, {"marbles", 2}, {"g", 9.81}};
+    return out;
+  }
+  void compare(const WorldChoice& choice) {
+    rig.app->ask(Compare{choice});
+    rig.play("wait 3");
+    REQUIRE(rig.app->comparison());
+  }
+  const WorldComparison& seen() const { return *rig.app->comparison(); }
+  void run(int ticks) {
+    REQUIRE(rig.app->session().advance(uint64_t(ticks)).ok());
+    rig.play("wait 2");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("with another number of the scene both begin at the start, and keep their distance") {
+  NumberedRig w(40);
+  CHECK(w.rig.tick() == 40);
+  WorldChoice choice = w.choice();
+  choice.numbers[0].second = 3;
+  w.compare(choice);
+  CHECK(w.rig.tick() == 0);
+  CHECK(w.seen().from_start);
+  CHECK_FALSE(w.seen().alone);
+  REQUIRE(w.seen().differences.size() == 1);
+  CHECK(w.seen().differences[0].path == "parameters.height");
+  CHECK(w.seen().differences[0].value_a == "2");
+  CHECK(w.seen().differences[0].value_b == "3");
+  REQUIRE(w.rig.app->ui().find("compare.differs.parameters.height"));
+  w.run(30);  // both fall all the while
+  CHECK(w.seen().first_tick == 0);
+  CHECK(w.seen().first_what == "ball");
+  CHECK(w.seen().distance == doctest::Approx(1).epsilon(1e-12));
+  // A pull at A is one at B, for they are made alike.
+  World& a = w.rig.app->session().world();
+  REQUIRE(a.apply_impulse(a.find_body("ball"), Vec3(50, 0, 0), Vec3(0, 1, 0)).ok());
+  w.run(5);
+  CHECK(w.rig.app->comparison()->distance == doctest::Approx(1).epsilon(1e-3));
+  // Undone, both are what they were.
+  w.rig.play("key Ctrl+Z\nwait 3");
+  check_no_faults(*w.device);
+}
+
+TEST_CASE("a number that the settings follow is followed, and a setting stays beside it") {
+  NumberedRig w(3);
+  WorldChoice choice = w.choice();
+  choice.numbers[2].second = 1;
+  choice.settings.realtime.substeps = 7;
+  w.compare(choice);
+  CHECK(w.seen().choice.settings.gravity.y() == -1);
+  CHECK(w.seen().choice.settings.realtime.substeps == 7);
+  CHECK(w.seen().differences.size() == 3);  // gravity, substeps, g
+  w.run(20);
+  const double t = 20.0 / 60;
+  CHECK(w.seen().distance == doctest::Approx(0.5 * 8.81 * t * t).epsilon(0.06));
+  check_no_faults(*w.device);
+}
+
+TEST_CASE("bodies of another count are told apart by name, and what is done to A stays with it") {
+  NumberedRig w(3);
+  WorldChoice choice = w.choice();
+  choice.numbers[1].second = 3;
+  w.compare(choice);
+  CHECK(w.seen().alone);
+  w.run(2);
+  REQUIRE(w.seen().first_tick);
+  CHECK(w.seen().first_what == "marble[2]");
+  World& a = w.rig.app->session().world();
+  const BodyId ball = a.find_body("ball");
+  REQUIRE(a.apply_impulse(ball, Vec3(50, 0, 0), a.body(ball)->pose.x).ok());
+  w.run(4);
+  // Of B's ball, whose slot is another, nothing was done: what only one has is farther all the
+  // same.
+  CHECK(std::isinf(w.seen().distance));
+  CHECK(w.seen().angle == 0);
+  check_no_faults(*w.device);
+}
+
+TEST_CASE("other threads and another instruction set are listed, and nothing parts by them") {
+  NumberedRig w(0);
+  WorldChoice choice = w.choice();
+  choice.threads = 2;
+  choice.simd = simd_targets().back();
+  w.compare(choice);
+  REQUIRE(w.seen().differences.size() == 2);
+  CHECK(w.seen().differences[0].path == "threads");
+  CHECK(w.seen().differences[1].path == "simd");
+  w.run(60);
+  CHECK_FALSE(w.seen().first_tick);
+  CHECK(w.seen().fault.empty());
+  check_no_faults(*w.device);
+}
+
+TEST_CASE("the first contact that differs is named, and looked into") {
+  NumberedRig w(30);  // the marbles lie on the floor
+  WorldChoice choice = w.choice();
+  choice.settings.gravity = Vec3(0, -5, 0);
+  w.compare(choice);
+  w.run(2);
+  REQUIRE(w.seen().first_contact);
+  const std::string words = w.seen().first_contact->what;
+  CHECK_MESSAGE(words.find("marble[0]") != std::string::npos, words);
+  CHECK_MESSAGE(words.find("floor") != std::string::npos, words);
+  w.rig.play("click compare.contact\nwait 4");
+  CHECK(w.rig.tick() == *w.seen().first_tick);
+  CHECK(w.rig.app->contact());
+  check_no_faults(*w.device);
+}
+
+TEST_CASE("what is listed as different makes the other world of the scene") {
+  WorldChoice a, b;
+  b.settings.stepper = "event";
+  b.settings.gravity = Vec3(0.25, -1.6, 1e-3);
+  b.settings.tick = {240, 7};
+  b.settings.realtime.sleeping = !a.settings.realtime.sleeping;
+  b.settings.event.integrator = "rk45";
+  b.threads = 3;
+  const auto found = differences(a, b);
+  CHECK(found.size() == 6);
+  const auto overrides = overrides_of(found);
+  CHECK(overrides.size() == 5);
+  ReadOptions options;
+  options.overrides = overrides;
+  const SceneRead read = read_scene(R"({"tumble_scene": 1})", "x.json", options);
+  REQUIRE(read.ok());
+  const auto built = build_world(read.scene, {});
+  REQUIRE(built.ok());
+  CHECK(changed_settings(built->world->settings(), b.settings).empty());
+  CHECK(changed_settings(built->world->settings(), a.settings).size() == 5);
+}
+
 TEST_CASE("a second world with equal settings keeps the same bits, whatever is done to the first") {
   TestWorld a;
   BodyDef box = TestWorld::box_def({0, 2, 0});
   box.name = "box";
   const BodyId id = a.add(box);
-  SecondWorld second(a->settings());
+  SecondWorld second(choice_of(a->settings()));
   second.begin(*a.world);
   for (int i = 0; i < 60; ++i) {
     if (i == 20) CHECK(a->apply_impulse(id, Vec3(500, 200, 0), Vec3(0, 2, 0.2)).ok());
@@ -35,7 +210,7 @@ TEST_CASE("other settings part, from the first tick in which they matter") {
   (void)a.add(box);
   WorldSettings settings = a->settings();
   settings.gravity = Vec3(0, -1, 0);
-  SecondWorld second(settings);
+  SecondWorld second(choice_of(settings));
   REQUIRE(a->apply_commands().ok());
   second.begin(*a.world);
   for (int i = 0; i < 30; ++i) {
@@ -58,7 +233,7 @@ TEST_CASE("a world of half the tick is compared at the moments that both have") 
   (void)a.add(TestWorld::box_def({0, 2, 0}));
   WorldSettings settings = a->settings();
   settings.tick.num *= 2;
-  SecondWorld second(settings);
+  SecondWorld second(choice_of(settings));
   REQUIRE(a->apply_commands().ok());
   second.begin(*a.world);
   const uint64_t begun = second.shown().to->tick;
@@ -82,7 +257,7 @@ TEST_CASE("the window compares, shows where worlds part, and goes there") {
   CHECK_FALSE(rig.app->comparison()->first_tick);
   WorldSettings settings = rig.app->settings();
   settings.gravity = Vec3(0, -3, 0);
-  rig.app->ask(Compare{settings});
+  rig.app->ask(Compare{choice_of(settings)});
   rig.play("wait 3");
   const uint64_t from = rig.tick();
   rig.play("key Space\nwait 20\nkey Space\nwait 3");
@@ -126,15 +301,16 @@ TEST_CASE("halves of a picture are equally wide, between the panels, in whole pi
 }
 
 TEST_CASE("worlds are called by what differs in them") {
-  WorldSettings a, b;
-  CHECK(names_by_settings(a, b).first.empty());
-  a.stepper = "event";
-  b.stepper = "realtime";
-  CHECK(names_by_settings(a, b) == std::pair<std::string, std::string>("event", "realtime"));
-  b.gravity = Vec3(0, -1.5, 0);
-  CHECK(names_by_settings(a, b).second.find("0 -1.5 0") != std::string::npos);
-  b.tick.num *= 2;
-  CHECK(names_by_settings(a, b).second.find("and 1 more") != std::string::npos);
+  WorldChoice a, b;
+  const auto names = [&] { return names_by(differences(a, b)); };
+  CHECK(names().first.empty());
+  a.settings.stepper = "event";
+  b.settings.stepper = "realtime";
+  CHECK(names() == std::pair<std::string, std::string>("event", "realtime"));
+  b.settings.gravity = Vec3(0, -1.5, 0);
+  CHECK(names().second.find("0 -1.5 0") != std::string::npos);
+  b.settings.tick.num *= 2;
+  CHECK(names().second.find("and 1 more") != std::string::npos);
 }
 
 TEST_CASE("the second world has a picture of its own, with the same camera, and A is worked on") {

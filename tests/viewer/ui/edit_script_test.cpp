@@ -2,6 +2,7 @@
 #include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
+#include "viewer/app/editing/edit_history.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <algorithm>
@@ -49,6 +50,33 @@ TEST_CASE("a body that was deleted comes back, and goes again") {
   CHECK(state_of(rig) == whole);
   CHECK(says(rig, "nothing to take back"));
   check_no_faults(*device);
+}
+
+TEST_CASE("a run that is begun again is without the deeds of the one before, until they are back") {
+  TestWorld w;
+  (void)w.add(TestWorld::box_def({0, 2, 0}));
+  SessionOptions options;
+  options.paused = true;
+  Session session(std::move(w.world), std::move(options));
+  EditHistory history;
+  using Ticks = std::vector<uint64_t>;
+  (void)history.begin(session, "Shoot", 3, {});
+  (void)history.begin(session, "Shoot", 7, {});
+  CHECK(history.ticks_of_this_course() == Ticks{3, 7});
+  history.begin_course();
+  CHECK(history.ticks_of_this_course().empty());
+  (void)history.begin(session, "Shoot", 2, {});
+  CHECK(history.ticks_of_this_course() == Ticks{2});
+  CHECK(history.ticks() == Ticks{3, 7, 2});
+  CHECK(session.advance(0).ok());
+  // Back to before the restart was undone, too: the last one of that run is taken back.
+  REQUIRE(history.undo(session, {}));
+  CHECK(history.ticks_of_this_course().empty());
+  REQUIRE(history.undo(session, {}));
+  CHECK(history.ticks_of_this_course() == Ticks{3});
+  REQUIRE(history.redo(session, {}));
+  CHECK(history.ticks_of_this_course().empty());
+  CHECK(session.advance(0).ok());
 }
 
 TEST_CASE("undo while it runs goes back to the moment of the deed, redo to where one was") {

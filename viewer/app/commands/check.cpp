@@ -177,8 +177,14 @@ int run_check(const CheckLine& line) {
       if (const JointRank rank = joint_rank(scene->built); rank.rows > 0) {
         one["joint_rows"] = rank.rows;
         one["joint_rank"] = rank.rank;
+        one["dependent_joints"] = nlohmann::ordered_json::array();
+        for (const auto& [name, rows] : rank.dependent)
+          one["dependent_joints"].push_back({{"name", name}, {"rows", rows}});
         if (!line.json) fmt::print("{}: {}\n", file, text_of(rank));
       }
+      if (!scene->built.assembly.empty()) one["assembly"] = scene->built.assembly;
+      if (!line.json)
+        for (const std::string& moved : scene->built.assembly) fmt::print("{}: {}\n", file, moved);
       const auto assertions = line.run ? SceneAssertions::make(scene->built) : nullptr;
       if (assertions &&
           !run_assertions(*scene->built.world, *assertions, line.seconds, file, one)) {
@@ -234,7 +240,12 @@ CommandAction declare_check(Options& options) {
       "world's.\n"
       "A run ends at the last moment (`at`) that the assertions name; where none does, it takes "
       "10 s.\n"
-      "Of scenes for the event stepper it says which bodies overlap at the start.\n\n"
+      "Of scenes for the event stepper it says which bodies overlap at the start; of joints, how "
+      "many of\n"
+      "the equations that they, their motors and couplings ask for are independent of each other, "
+      "and which\n"
+      "joints have some that others hold too (--json: joint_rows, joint_rank, "
+      "dependent_joints[name rows]).\n\n"
       "Examples:\n"
       "  tumble check my_scene.json\n"
       "  tumble check robot.urdf              what is not followed too, line by line\n"

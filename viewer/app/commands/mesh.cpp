@@ -7,6 +7,7 @@
 #include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/overlays.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -26,7 +27,48 @@ struct MeshLine {
   bool decompose = false, sdf = false, fit = false, representations = false;
   PiecesRequest pieces;
   FieldRequest field;
+  std::string wrap;  ///< a gap or "auto"; empty: none
+  WrapRequest wrapping;
 };
+
+constexpr std::string_view usual_gap = "auto";
+
+/// What is wrong with the options together.
+Status check_line(MeshLine& line) {
+  const auto bad = [](std::string text) {
+    return Error{ErrorCode::invalid_argument, std::move(text), {}, {}};
+  };
+  // A range check lets pass what is no number.
+  if (std::isnan(line.scale) || std::isnan(line.density) || std::isnan(line.weld.value_or(0)))
+    return bad("--scale, --density and --weld must be numbers");
+  if (!line.pieces.file.empty() && !line.decompose && line.wrap.empty())
+    return bad("--out requires --decompose or --wrap");
+  if (line.wrap.empty() || line.wrap == usual_gap) return {};
+  const char* end = line.wrap.data() + line.wrap.size();
+  const auto [rest, code] = std::from_chars(line.wrap.data(), end, line.wrapping.gap);
+  if (code == std::errc() && rest == end && line.wrapping.gap >= 1e-9 && line.wrapping.gap <= 1e6)
+    return {};
+  return bad(
+      fmt::format("--wrap={}: a gap of 1e-9 to 1e6 m, or {}, is wanted", line.wrap, usual_gap));
+}
+
+/// Puts the wrap in the place of the mesh where one is asked for.
+std::optional<int> add_wrap(const MeshLine& line, TriangleMesh& mesh,
+                            std::optional<WrapFacts>& facts) {
+  if (line.wrap.empty()) return std::nullopt;
+  const StopSignal stop;
+  auto made = wrap_in_place(mesh, line.wrapping, stop);
+  if (stop.requested()) return stop.exit_code();
+  if (!made)
+    return report({made.error().code, made.error().message, line.file, made.error().cure},
+                  exit_bad_input);
+  facts = *std::move(made);
+  if (line.decompose || line.pieces.file.empty()) return std::nullopt;
+  if (Status s = write_mesh(line.pieces.file, mesh); !s)
+    return report(s.error(), exit_cannot_write);
+  facts->file = line.pieces.file;
+  return std::nullopt;
+}
 
 /// What is computed only when asked for: pieces, distance field, primitives, all five side by side.
 std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
@@ -75,18 +117,17 @@ int run_mesh(MeshLine& line) {
   MeshPicture& picture = line.picture;
   if (Status s = parse_picture_size(line.size, picture.width, picture.height); !s)
     return report(s.error(), exit_usage);
-  // A range check lets pass what is no number.
-  if (std::isnan(line.scale) || std::isnan(line.density) || std::isnan(line.weld.value_or(0)))
-    return report(
-        {ErrorCode::invalid_argument, "--scale, --density and --weld must be numbers", {}, {}},
-        exit_usage);
+  if (Status s = check_line(line); !s) return report(s.error(), exit_usage);
   ImportOptions options;
   options.scale = line.scale;
   options.weld = line.weld;
   options.up = line.up == "z" ? UpAxis::z : line.up == "x" ? UpAxis::x : UpAxis::y;
   auto mesh = import_mesh(line.file, options);
   if (!mesh) return report(mesh.error(), exit_bad_input);
+  std::optional<WrapFacts> wrap;
+  if (const auto code = add_wrap(line, mesh->mesh, wrap)) return *code;
   MeshFacts facts = mesh_facts(line.file, *std::move(mesh), line.density);
+  facts.wrap = std::move(wrap);
   if (const auto code = add_parts(line, facts)) return *code;
   if (!line.render.empty()) {
     picture.file = line.render;
@@ -101,6 +142,24 @@ int run_mesh(MeshLine& line) {
     if (!line.render.empty()) fmt::print("  {:<16}{}\n", "picture", line.render);
   }
   return exit_ok;
+}
+
+void declare_wrap(Options& options, MeshLine& line) {
+  const Option wrap = options.flag(
+      "--wrap{auto}", line.wrap,
+      "a closed surface about it in its place, for open or broken meshes; --wrap=GAP closes what a "
+      "ball of this diameter does not pass [m], a 12th of the longest side unless given");
+  options
+      .value("--wrap-offset", line.wrapping.offset,
+             "how far the wrap stands off the mesh [m]; two cells unless given")
+      .between(1e-9, 1e6)
+      .needs(wrap);
+  options
+      .value("--wrap-cell", line.wrapping.cell,
+             "side of its cells [m]; half of the offset, else a quarter of the gap, but from a "
+             "128th to a 40th of the longest side unless given")
+      .between(1e-9, 1e6)
+      .needs(wrap);
 }
 
 /// The options of pieces and distance field.
@@ -130,10 +189,9 @@ void declare_parts(Options& options, MeshLine& line) {
       .needs(decompose);
   options
       .value("--out", line.pieces.file,
-             "write the pieces into this OBJ (.obj) or glTF file (.glb, .gltf)")
+             "write the pieces, or else the wrap, into this OBJ (.obj) or glTF file (.glb, .gltf)")
       .not_empty()
-      .ends_in(piece_file_endings())
-      .needs(decompose);
+      .ends_in(piece_file_endings());
   const Option sdf = options.flag("--sdf", line.sdf, "signed distance field: cost and error");
   const Option cell = options
                           .value("--cell", line.field.cell,
@@ -188,6 +246,7 @@ CommandAction declare_mesh(Options& options) {
   options.value("--context", line->picture.context, "what draws: " + context_list())
       .shows_default()
       .needs(render);
+  declare_wrap(options, *line);
   declare_parts(options, *line);
   options.footer(
       "Facts are those of the mesh after loading has cleaned it up; what that changed is listed.\n"
@@ -201,6 +260,10 @@ CommandAction declare_mesh(Options& options) {
       "contacts\n"
       "of a ball of a fiftieth of the size, laid about the surface. Numbers of --decompose and\n"
       "--sdf hold for --representations too.\n\n"
+      "With --wrap all facts are those of the wrap, a closed surface with all of the mesh inside:\n"
+      "`added` is how far it reaches outside the mesh as sampled and `bound` as proven, `missing` "
+      "how\n"
+      "far the mesh stands out of it, `buried` how far it lies beneath it.\n\n"
       "Of each hierarchy: root/hull, volume of the root's over the convex hull's; leaves/mesh,\n"
       "surface of all leaves' over the mesh's; nodes/line, volumes that a random line meets for\n"
       "each that meets the root's; less is better in all three. Build times are of this run.\n\n"
@@ -216,7 +279,9 @@ CommandAction declare_mesh(Options& options) {
       "volume_ratio} hierarchies{aabb obb sphere convex_hull: nodes leaves depth\n"
       "bytes bytes_per_triangle tightness{root_over_hull leaves_over_mesh nodes_per_line}\n"
       "timing{build_ms}} notes picture; null where there is no value. What was asked for, else no\n"
-      "key: decomposition{exact pieces[vertices faces volume added] cuts hull_volume mesh_volume\n"
+      "key: wrap{triangles_of_file gap offset cell added missing buried bound out "
+      "timing{seconds}}\n"
+      "decomposition{exact pieces[vertices faces volume added] cuts hull_volume mesh_volume\n"
       "volume_ratio added missing concavity bound_met left_out{parts volume} out timing{seconds}}\n"
       "distance_field{cell cells band blocks bits bytes bytes_per_area node_error band_error\n"
       "measured{rms largest} overlapped_nodes slices{folder count} timing{seconds}}\n"
@@ -228,6 +293,7 @@ CommandAction declare_mesh(Options& options) {
       "  tumble mesh assets/meshes/gear.obj --json\n"
       "  tumble mesh assets/meshes/cup.obj --decompose --concavity 0.005 --out pieces.glb\n"
       "  tumble mesh assets/meshes/cup.obj --sdf --cell 0.002 --slices slices\n"
+      "  tumble mesh scan.ply --wrap=0.02 --out closed.obj\n"
       "  tumble mesh assets/meshes/rook.obj --fit --representations\n"
       "  tumble mesh assets/meshes/vase.obj --render vase.png --hierarchy obb --level 4");
   return [line] { return run_mesh(*line); };

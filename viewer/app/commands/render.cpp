@@ -5,6 +5,7 @@
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
+#include "viewer/app/scenes/saved_states.hpp"
 #include "viewer/app/scenes/scene_files.hpp"
 #include "viewer/app/scenes/scene_look.hpp"
 #include "viewer/app/scenes/scene_replay.hpp"
@@ -14,6 +15,7 @@
 #include "viewer/capture/sequence.hpp"
 #include "viewer/capture/video_pipe.hpp"
 
+#include <algorithm>
 #include <future>
 #include <memory>
 #include <optional>
@@ -26,8 +28,8 @@ namespace {
 
 struct RenderLine {
   SceneRequest request;
-  std::string folder, video, fps = "30", size = "1280x720", seconds, camera, context = "auto",
-                             overlay, quality = "standard";
+  std::string folder, states, video, fps, size = "1280x720", seconds, camera, context = "auto",
+                                          overlay, quality = "standard";
   std::optional<uint64_t> frames;
   bool resume = false, force = false, json = false, quiet = false;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -58,20 +60,28 @@ bool may_play(const RenderLine& line) {
   return !wish.none && (!wish.file.empty() || is_pack_file(line.request.scene));
 }
 
-/// Rate, size and number of frames (none yet where a replay may say that).
-Status parse_plan(const RenderLine& line, FramesFile& plan) {
-  const auto fps = parse_fraction(line.fps, "--fps");
-  if (!fps) return fps.error();
-  plan.fps = *fps;
+/// Rate, size and number of frames (none yet where a replay may say that); of saved states those
+/// that can be drawn of them, unless asked otherwise.
+Status parse_plan(const RenderLine& line, const SavedStates* states, FramesFile& plan) {
+  if (!line.fps.empty()) {
+    const auto fps = parse_fraction(line.fps, "--fps");
+    if (!fps) return fps.error();
+    plan.fps = *fps;
+  } else if (states) {
+    plan.fps = states->list().fps;
+  }
   if (auto size = parse_picture_size(line.size, plan.width, plan.height); !size) return size;
-  if (!line.frames && line.seconds.empty() && may_play(line)) return {};
+  if (!line.frames && line.seconds.empty()) {
+    if (states) plan.frames_wanted = states->frames_at(plan.fps);
+    if (states || may_play(line)) return {};
+  }
   if (line.frames.has_value() == !line.seconds.empty()) return no_frames();
   if (line.frames) {
     plan.frames_wanted = *line.frames;
   } else {
     const auto seconds = parse_fraction(line.seconds, "--seconds", true);
     if (!seconds) return seconds.error();
-    plan.frames_wanted = frame_count(*seconds, *fps);
+    plan.frames_wanted = frame_count(*seconds, plan.fps);
   }
   if (plan.frames_wanted == 0 || plan.frames_wanted > most_frames)
     return usage(fmt::format("{} frames: it must be 1 to {}", plan.frames_wanted, most_frames));
@@ -80,7 +90,7 @@ Status parse_plan(const RenderLine& line, FramesFile& plan) {
 
 /// What must be equal for a resumed run to continue this one.
 std::string run_key(const RenderLine& line, const LoadedScene& scene, const ReplayPlayer* player,
-                    const FramesFile& plan) {
+                    const SavedStates* states, const FramesFile& plan) {
   std::string text =
       fmt::format("{}|{:016x}|{}/{}|{}x{}|{}|{}|{}|{}", scene.name, scene.built.world->state_hash(),
                   plan.fps.num, plan.fps.den, plan.width, plan.height, plan.camera_name,
@@ -89,6 +99,7 @@ std::string run_key(const RenderLine& line, const LoadedScene& scene, const Repl
   for (const std::string& overlay : look.overlays) text += "|overlay " + overlay;
   if (look.trail > 0) text += fmt::format("|trail {}", look.trail);
   if (line.quality != "standard") text += "|quality " + line.quality;
+  if (states) text += "|states " + states->list().run;
   if (player) text += fmt::format("|replay {} {}", player->last_tick(), player->last_hash());
   for (const std::string& change : line.request.overrides) text += "|" + change;
   return hash_text(hash_bytes(text.data(), text.size()));
@@ -142,6 +153,8 @@ int code_of(const SequenceResult& result, const StopSignal& stop) {
       return report(result.error, exit_cannot_write);
     case SequenceEnd::cannot_draw:
       return report(result.error, exit_no_renderer);
+    case SequenceEnd::cannot_read:
+      return report(result.error, exit_bad_input);
     case SequenceEnd::broken_down:
       return report(result.error, exit_broken_down);
     case SequenceEnd::diverged:
@@ -150,22 +163,61 @@ int code_of(const SequenceResult& result, const StopSignal& stop) {
   return exit_broken_down;
 }
 
+using NextFrame = Result<std::shared_ptr<const Frame>>;
+
+/// A tick of the world, with what the replay does after it.
+NextFrame simulate_tick(World& world, ReplayPlayer* player) {
+  if (const auto stepped = world.step(); !stepped) return stepped.error();
+  if (player)
+    if (const Status done = player->follow(world); !done) return done.error();
+  return world.frame();
+}
+
+/// Whether a picture is made of all ticks before it, or of the last one.
+bool made_of_every_tick(const SceneDescription& scene, const Overlays& shown) {
+  const bool arrows_of_particles = !scene.particles.empty() && (shown.velocities || shown.momenta);
+  const bool paths = std::ranges::any_of(
+      scene.particles.items, [](const auto& system) { return system.value.look.trail > 0; });
+  return paths || scene.look.trail > 0 || shown.total_forces || arrows_of_particles;
+}
+
+/// The first state, or why the frames of the plan cannot be drawn from the states.
+NextFrame begin_with(const SavedStates& states, const LoadedScene& scene, const Overlays& shown,
+                     const FramesFile& plan) {
+  if (scene.built.microscope)
+    return usage("the microscope looks at a world that simulates, not at saved states",
+                 "render without --states");
+  const bool each = made_of_every_tick(*scene.built.description, shown);
+  if (Status there = states.check_frames(plan.frames_wanted, plan.fps, each); !there)
+    return there.error();
+  return states.begin(*scene.built.world);
+}
+
 /// The part after everything is loaded.
 int render_frames(const RenderLine& line, const LoadedScene& scene, ReplayPlayer* player,
-                  const ViewPoint& view, Drawing& drawing, FramesFile& plan,
-                  SequenceOptions& options, const StopSignal& stop) {
+                  const SavedStates* states, const ViewPoint& view, Drawing& drawing,
+                  FramesFile& plan, SequenceOptions& options, const StopSignal& stop) {
   const ContextInfo& info = drawing.context->info();
   plan.context = info.name;
   plan.renderer = info.renderer;
   plan.gl_version = info.version;
 
   const SceneDescription& description = *scene.built.description;
-  SequenceScene sequence{*scene.built.world, *drawing.renderer, {}, {}, {}};
-  if (player) sequence.after_tick = [player](World& world) { return player->follow(world); };
+  World& world = *scene.built.world;
+  if (line.overlay.empty()) options.extract.overlays = overlays_of(description);
+  const auto start = states ? begin_with(*states, scene, options.extract.overlays, plan)
+                            : NextFrame(world.frame());
+  if (!start)
+    return report(start.error(),
+                  start.error().code == ErrorCode::invalid_argument ? exit_usage : exit_bad_input);
+  SequenceScene sequence{world, *start, *drawing.renderer, {}, {}, {}};
+  const bool each = made_of_every_tick(description, options.extract.overlays);
+  sequence.advance = [player, states, each](World& w, uint64_t tick) {
+    return states ? states->advance(w, tick, each) : simulate_tick(w, player);
+  };
   if (const auto quality = parse_quality(line.quality); quality.ok())
     sequence.look.quality = *quality;
   apply_look(description, sequence.look);
-  if (line.overlay.empty()) options.extract.overlays = overlays_of(description);
   options.trail_seconds = description.look.trail;
   options.extract.notes = body_notes(scene.built);
   options.extract.microscope = scene.built.microscope;
@@ -206,7 +258,15 @@ int run_render(RenderLine& line) {
   if (auto good = check_outputs(line); !good)
     return report(good.error(),
                   good.error().code == ErrorCode::io ? exit_cannot_write : exit_usage);
-  if (auto parsed = parse_plan(line, plan); !parsed) return report(parsed.error(), exit_usage);
+  std::optional<SavedStates> states;
+  if (!line.states.empty()) {
+    auto opened = SavedStates::open(line.states);
+    if (!opened) return report(opened.error(), exit_bad_input);
+    states = *std::move(opened);
+  }
+  SavedStates* saved = states ? &*states : nullptr;
+  if (auto parsed = parse_plan(line, saved, plan); !parsed)
+    return report(parsed.error(), exit_usage);
   SequenceOptions options;
   options.folder = line.folder;
   options.video = line.video;
@@ -237,16 +297,18 @@ int run_render(RenderLine& line) {
   const StopSignal stop;
   line.request.log = options.log;
   // The scene loads beside the making of the context; a resumed run may need none.
-  auto loading = std::async(std::launch::async, [&line, &stop] {
+  auto loading = std::async(std::launch::async, [&line, &stop, saved] {
     const Stoppable scope(&stop.flag());
-    return load_scene_and_world(line.request);
+    return saved ? saved->load_scene(line.request, TUMBLE_VERSION)
+                 : load_scene_and_world(line.request);
   });
   std::optional<Result<Drawing>> drawing;
   if (!line.resume) drawing.emplace(make_drawing(line.context, options.log));
   const auto scene = loading.get();
   if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
-  const auto player = replay_of(line.request, *scene);
+  const auto player = saved ? Result<std::shared_ptr<ReplayPlayer>>(std::shared_ptr<ReplayPlayer>())
+                            : replay_of(line.request, *scene);
   if (!player) return report(player.error(), exit_code_of_scene(player.error()));
   plan.rate = scene->built.world->settings().tick;
   if (*player && !line.quiet)
@@ -262,7 +324,7 @@ int run_render(RenderLine& line) {
   plan.scene = line.request.scene;
   plan.camera_name = view->name;
   plan.camera = view->camera;
-  plan.run = run_key(line, *scene, player->get(), plan);
+  plan.run = run_key(line, *scene, player->get(), saved, plan);
   if (line.resume) {
     if (auto keep = frames_to_keep(options, plan, kept); !keep)
       return report(keep.error(), exit_cannot_write);
@@ -275,7 +337,7 @@ int run_render(RenderLine& line) {
     drawing.emplace(make_drawing(line.context, options.log));
   }
   if (!*drawing) return report(drawing->error(), exit_no_renderer);
-  return render_frames(line, *scene, player->get(), *view, **drawing, plan, options, stop);
+  return render_frames(line, *scene, player->get(), saved, *view, **drawing, plan, options, stop);
 }
 
 std::string overlay_names() {
@@ -300,14 +362,15 @@ CommandAction declare_render(Options& options) {
   options.value("--seconds", line->seconds,
                 "instead: simulated time; round(seconds * fps) frames; with a replay neither is "
                 "needed");
-  options.value("--fps", line->fps, "frames per simulated second: 30, 23.976 or 30000/1001")
-      .shows_default();
+  options.value("--fps", line->fps,
+                "frames per simulated second: 30 (the default), 23.976 or 30000/1001");
   options.value("--size", line->size, "width x height in pixels").shows_default();
   options.value("--camera", line->camera, "a camera of the scene; the first one unless given");
   options.value("--context", line->context, "what draws: " + context_list()).shows_default();
   options.value("--threads", line->request.threads, "of the simulation; 0: one per core")
       .between(0, 1024);
-  options.value("--stepper", line->request.stepper, "instead of the scene's");
+  const Option stepper =
+      options.value("--stepper", line->request.stepper, "instead of the scene's");
   options.value("--overlay", line->overlay,
                 "instead of the scene's, comma-separated: none " + overlay_names());
   options
@@ -315,6 +378,11 @@ CommandAction declare_render(Options& options) {
              "draft: no anti-aliasing, for a quick look; standard; high: finer shadows")
       .shows_default();
   options.value("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3").one_each();
+  const Option states = options.value(
+      "--states", line->states,
+      "folder of `tumble simulate --states`: drawn without simulating, by default all there is; "
+      "--set changes looks, lights and cameras");
+  states.excludes(stepper);
   declare_replay(options, line->request.replay);
   options.flag("--resume", line->resume, "go on with the frames of an interrupted run");
   options.flag("--force", line->force, "overwrite frames that exist");
@@ -330,6 +398,9 @@ CommandAction declare_render(Options& options) {
       "  tumble render demolition --video demolition.mp4 --seconds 4\n"
       "  tumble render tower -o out --seconds 2 --fps 60 --overlay contacts,forces\n"
       "  tumble render mesh_pile -o out --frames 1 --overlay hierarchy:obb:4\n"
+      "  tumble simulate dam_break --seconds 2 --states run && tumble render dam_break --states "
+      "run\n"
+      "      -o out --camera top --set particles.water.look.style=surface\n"
       "  tumble render part.stl -o out --seconds 2       a mesh file falls on a table");
   return [line] { return run_render(*line); };
 }

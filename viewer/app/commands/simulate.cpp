@@ -9,6 +9,7 @@
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/quantities.hpp"
+#include "viewer/app/scenes/saved_states.hpp"
 #include "viewer/app/scenes/scene_assertions.hpp"
 #include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/app/simulate/certificates_file.hpp"
@@ -18,6 +19,8 @@
 #include "viewer/capture/frame_clock.hpp"
 #include "viewer/capture/stop_signal.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -53,16 +56,17 @@ struct Outputs {
   JointCsv joints;
   StageTrace trace;
   ParticleExport particles;
+  StateExport states;
 
   Status status() const {
-    for (const Status& s :
-         {csv.status(), contacts.status(), joints.status(), trace.status(), particles.status()})
+    for (const Status& s : {csv.status(), contacts.status(), joints.status(), trace.status(),
+                            particles.status(), states.status()})
       if (!s) return s;
     return {};
   }
   Status commit() {
-    for (const Status& s :
-         {csv.commit(), contacts.commit(), joints.commit(), trace.commit(), particles.commit()})
+    for (const Status& s : {csv.commit(), contacts.commit(), joints.commit(), trace.commit(),
+                            particles.commit(), states.commit()})
       if (!s) return s;
     return {};
   }
@@ -132,8 +136,10 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   if (assertions) assertions->see(*frame);
   out.csv.add(*frame);
   result.step = out.joints.add(world);
-  result.outputs = out.particles.add(world);
-  for (uint64_t i = 0; result.step && result.outputs && i < ticks && !stop.requested(); ++i) {
+  (void)out.particles.add(world);  // status() has it
+  (void)out.states.add(world);
+  result.outputs = out.status();
+  while (result.step && result.outputs && world.tick() < ticks && !stop.requested()) {
     const double begin = since(start);
     if (const auto report = world.step(); !report) {
       if (report.error().code != ErrorCode::cancelled) result.step = report.error();
@@ -149,9 +155,10 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
       if (joints.error().code != ErrorCode::cancelled) result.step = std::move(joints);
       break;
     }
-    if (hash_every > 0 && frame->tick % hash_every == 0 && i + 1 < ticks)
+    if (hash_every > 0 && frame->tick % hash_every == 0 && frame->tick < ticks)
       fmt::print("{} {}\n", frame->tick, hash_text(world.state_hash()));
-    (void)out.particles.add(world);  // status() has it
+    (void)out.particles.add(world);
+    (void)out.states.add(world);
     result.outputs = out.status();
     if (!result.outputs) break;
   }
@@ -235,8 +242,11 @@ nlohmann::ordered_json order_json(const std::optional<double>& order) {
 
 /// Three runs and a table in place of one run.
 int run_convergence(SimulateLine& line) {
+  const StopSignal stop;
+  const Stoppable scope(&stop.flag());
   line.request.log = stderr_log(LogLevel::warning);
   const auto scene = load_scene_and_world(line.request);
+  if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
   if (const auto player = replay_of(line.request, *scene); player && *player)
     fmt::print(stderr, "tumble: warning: {} is not played: it is of ticks of one length\n",
@@ -244,7 +254,8 @@ int run_convergence(SimulateLine& line) {
   const auto ticks = ticks_of(line, scene->built.world->settings().tick);
   if (!ticks) return report(ticks.error(), exit_usage);
   line.request.log = {};  // it has said what it had to say
-  const auto measured = measure_convergence(line.request, *ticks);
+  const auto measured = measure_convergence(line.request, *ticks, &stop.flag());
+  if (stop.requested()) return stop.exit_code();
   if (!measured) return report(measured.error(), exit_broken_down);
   if (!line.json) {
     fmt::print("{}", convergence_text(*measured));
@@ -276,6 +287,22 @@ bool may_play(const SimulateLine& line) {
          (!wish.file.empty() || is_pack_file(line.request.scene));
 }
 
+/// A replay as part of what makes a run the same as another; empty for none.
+std::string key_of(const ReplayPlayer* player) {
+  return player ? fmt::format("replay {} {:016x}", player->last_tick(), player->last_hash()) : "";
+}
+
+/// Whether a run must begin at the beginning: something is wanted of all its ticks.
+bool wants_beginning(const SimulateLine& line, const SceneAssertions* assertions,
+                     const ReplayPlayer* player) {
+  const bool every_hash = !line.hash.empty() && line.hash != "final";
+  const std::array files = {&line.csv, &line.joints, &line.trace, &line.replay,
+                            &line.particles.folder};
+  return assertions || player || every_hash ||
+         std::ranges::any_of(files, [](const auto* file) { return !file->empty(); }) ||
+         (!line.contacts.empty() && !asks_certificates(line.contacts));
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
@@ -298,6 +325,8 @@ int run_simulate(SimulateLine& line) {
   auto scene = load_scene_and_world(line.request);
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
   World& world = *scene->built.world;
+  const std::string start =
+      line.particles.states.empty() ? "" : start_of_run(world, TUMBLE_VERSION);
   const auto player = replay_of(line.request, *scene);
   if (!player) return report(player.error(), exit_code_of_scene(player.error()));
   if (*player) fmt::print(stderr, "{}\n", replay_words(line.request, *scene, **player));
@@ -313,11 +342,22 @@ int run_simulate(SimulateLine& line) {
   if (!export_plan) return report(export_plan.error(), exit_usage);
   auto particles = ParticleExport::begin(world, *export_plan);
   if (!particles) return report(particles.error(), exit_code_of_export(particles.error()));
+  const auto states_plan =
+      state_options(line.particles, line.request, *scene, start, key_of(player->get()), ticks);
+  if (!states_plan) return report(states_plan.error(), exit_usage);
+  auto states = StateExport::begin(*states_plan);
+  if (!states) return report(states.error(), exit_code_of_export(states.error()));
   Outputs outputs{EnergyCsv(line.csv, names_of(scene->built)),
-                  ContactCsv(certified ? "" : line.contacts), JointCsv(line.joints),
-                  StageTrace(line.trace), *std::move(particles)};
+                  ContactCsv(certified ? "" : line.contacts),
+                  JointCsv(line.joints),
+                  StageTrace(line.trace),
+                  *std::move(particles),
+                  *std::move(states)};
   if (auto s = outputs.status(); !s) return report(s.error(), exit_cannot_write);
   const std::shared_ptr<SceneAssertions> of_scene = SceneAssertions::make(scene->built);
+  if (line.particles.resume && !wants_beginning(line, of_scene.get(), player->get()))
+    if (auto s = outputs.states.skip(world); !s)
+      return report(s.error(), exit_code_of_export(s.error()));
   const RunResult run =
       run_ticks(world, ticks, *every, stop, of_scene.get(), player->get(), outputs);
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
@@ -344,6 +384,9 @@ int run_simulate(SimulateLine& line) {
   if (outputs.particles.wanted() && !line.json)
     fmt::print(stderr, "{} frames of particles in {}, {} of them there before\n",
                outputs.particles.frames(), line.particles.folder, outputs.particles.frames_kept());
+  if (outputs.states.wanted() && !line.json)
+    fmt::print(stderr, "{} states in {}, {} of them there before\n", outputs.states.states(),
+               line.particles.states, outputs.states.states_kept());
   if (!line.hash.empty()) fmt::print("{}\n", hash_text(world.state_hash()));
   if (*player)
     if (const Status same = (*player)->verdict(); !same) return report(same.error(), exit_negative);
@@ -384,7 +427,7 @@ CommandAction declare_simulate(Options& options) {
   const Option asserts =
       options.value("--assert", line->asserts, "expression that must hold at the end, else exit 1")
           .one_each();
-  const Option particles = declare_export(options, line->particles);
+  const auto [particles, states] = declare_export(options, line->particles);
   options
       .flag("--convergence", line->convergence,
             "instead: runs with the tick, half and a quarter of it, errors and observed order")
@@ -394,7 +437,8 @@ CommandAction declare_simulate(Options& options) {
       .excludes(trace)
       .excludes(hash)
       .excludes(asserts)
-      .excludes(particles);
+      .excludes(particles)
+      .excludes(states);
   options.flag("--json", line->json, "one JSON object on stdout");
   options.footer(
       "The assertions of the scene are judged too; one that fails ends with 1.\n\n"

@@ -29,7 +29,7 @@ Result<double> cell_of(const std::string& text) {
 
 }  // namespace
 
-Option declare_export(Options& options, ExportLine& line) {
+std::pair<Option, Option> declare_export(Options& options, ExportLine& line) {
   const Option folder = options.value(
       "--export", line.folder,
       "folder for the particles, a file for each system and frame, e.g. water_000000.ply, and "
@@ -40,18 +40,25 @@ Option declare_export(Options& options, ExportLine& line) {
       .one_of(particle_formats())
       .shows_default()
       .needs(folder);
-  options.value("--fps", line.fps, "their frames per simulated second: 30, 23.976 or 30000/1001")
-      .shows_default()
-      .needs(folder);
+  const Option states =
+      options.value("--states", line.states,
+                    "folder for the states that `tumble render --states` draws frames from without "
+                    "simulating, and states.json");
+  options
+      .value("--fps", line.fps,
+             "frames of particles, or that states are for, per simulated second: 30, 23.976 or "
+             "30000/1001")
+      .shows_default();
   options
       .flag("--surface{auto}", line.surface,
             "also a mesh of the skin about the particles of each system, e.g. "
             "water-surface_000000.ply; =METRES: size of its cells, else half the mean radius")
       .needs(folder);
-  options.flag("--resume", line.resume, "go on with the files of an interrupted export")
-      .needs(folder);
-  options.flag("--force", line.force, "overwrite files of an export, and a replay");
-  return folder;
+  options.flag("--resume", line.resume,
+               "go on with the particles or states of an interrupted run; with the last state, "
+               "where nothing else is wanted of the run before it");
+  options.flag("--force", line.force, "overwrite particles, states and a replay");
+  return {folder, states};
 }
 
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
@@ -75,6 +82,40 @@ Result<ParticleExportOptions> export_options(const ExportLine& line, const Scene
   out.scene = request.scene;
   out.run = fmt::format("{}|{}", scene.name, request.stepper);
   for (const std::string& change : request.overrides) out.run += "|" + change;
+  return out;
+}
+
+Result<StateExportOptions> state_options(const ExportLine& line, const SceneRequest& request,
+                                         const LoadedScene& scene, const std::string& start,
+                                         const std::string& replay, uint64_t ticks) {
+  StateExportOptions out;
+  if (line.folder.empty() && line.states.empty() && line.resume)
+    return Error{ErrorCode::invalid_argument,
+                 "--resume: there is nothing to go on with",
+                 {},
+                 "give --export or --states"};
+  if (line.states.empty()) return out;
+  const auto fps = parse_fraction(line.fps, "--fps");
+  if (!fps) return fps.error();
+  out.folder = line.states;
+  out.list.version = TUMBLE_VERSION;
+  out.list.scene = request.scene;
+  out.list.start = start;
+  out.list.run = replay;
+  out.list.stepper = request.stepper;
+  out.list.overrides = request.overrides;
+  out.list.fps = *fps;
+  out.list.rate = scene.built.world->settings().tick;
+  out.list.frames_wanted = frames_within(ticks, *fps, out.list.rate);
+  const SceneDescription& description = *scene.built.description;
+  out.list.every_tick = description.look.trail > 0 ||
+                        std::ranges::any_of(description.particles.items, [](const auto& system) {
+                          return system.value.look.trail > 0;
+                        });
+  out.last_tick = ticks;
+  out.geometry = !replay.empty();
+  out.resume = line.resume;
+  out.force = line.force;
   return out;
 }
 

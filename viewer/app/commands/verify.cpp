@@ -2,6 +2,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
+#include "viewer/app/verify/differences.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/capture/stop_signal.hpp"
@@ -35,25 +36,42 @@ Error of_option(Error error, std::string_view option) {
   return error;
 }
 
-Result<LoadedScene> load_side(const VerifyLine& line, const std::vector<std::string>& own,
-                              std::string_view option, int threads) {
+/// One of the two worlds, and how it was chosen.
+struct Side {
+  LoadedScene scene;
+  WorldChoice choice;
+};
+
+Result<Side> load_side(const VerifyLine& line, std::vector<std::string> own,
+                       std::string_view option, int threads) {
+  WorldChoice choice;
+  choice.threads = threads;
+  if (const Status taken = take_machine(own, choice); !taken) {
+    Error error = taken.error();
+    error.place = fmt::format("{} {}", option, error.place);
+    return error;
+  }
   SceneRequest request;
   request.scene = line.scene;
   request.overrides = line.common;
   const bool common_is_fine = own.empty() || read_scene_request(request).ok();
   request.overrides.insert(request.overrides.end(), own.begin(), own.end());
-  request.threads = threads;
+  request.threads = choice.threads;
   request.log = stderr_log(LogLevel::warning);
   auto loaded = load_scene_and_world(request);
   if (!loaded && !own.empty() && common_is_fine) return of_option(loaded.error(), option);
-  return loaded;
+  if (!loaded) return loaded.error();
+  choice.settings = loaded->built.world->settings();
+  choice.numbers = numbers_of(*loaded->built.description);
+  return Side{*std::move(loaded), std::move(choice)};
 }
 
 /// What is looked for, and what was found.
 struct Comparison {
   double tolerance = 0;
   uint64_t moments = 0;
-  std::optional<Divergence> first;  ///< beyond the tolerance
+  std::optional<Divergence> first;                 ///< beyond the tolerance
+  std::optional<ContactDifference> first_contact;  ///< of that moment
   Divergence worst, last;
 
   bool beyond(const Divergence& d) const {
@@ -84,17 +102,35 @@ std::string apart_words(double distance) {
                                  : std::string("which only one of the two worlds has");
 }
 
-void print_result(const Comparison& found, bool json) {
+nlohmann::ordered_json differences_json(const std::vector<WorldDifference>& differences) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const WorldDifference& d : differences)
+    out.push_back({{"path", d.path}, {"a", d.value_a}, {"b", d.value_b}});
+  return out;
+}
+
+/// A value as --set takes it, but for what "" and 0 stand for.
+std::string shown_value(const WorldDifference& d, const std::string& value) {
+  if (d.path == "threads" && value == "0") return "one per core";
+  return value.empty() ? "the best" : value;
+}
+
+void print_result(const Comparison& found, const std::vector<WorldDifference>& differences,
+                  bool json) {
   if (json) {
-    nlohmann::ordered_json out = {{"agrees", !found.first},
+    nlohmann::ordered_json out = {{"differences", differences_json(differences)},
+                                  {"agrees", !found.first},
                                   {"moments", found.moments},
                                   {"tolerance", found.tolerance},
                                   {"worst", divergence_json(found.worst)},
                                   {"last", divergence_json(found.last)}};
     if (found.first) out["first"] = divergence_json(*found.first);
+    if (found.first_contact) out["first_contact"] = found.first_contact->what;
     fmt::print("{}\n", out.dump(2));
     return;
   }
+  for (const WorldDifference& d : differences)
+    fmt::print("{}: A {}, B {}\n", d.path, shown_value(d, d.value_a), shown_value(d, d.value_b));
   if (!found.first) {
     if (found.tolerance > 0)
       fmt::print("A and B stay within {} m of each other for {} s (at most {:.3g} m)\n",
@@ -109,8 +145,29 @@ void print_result(const Comparison& found, bool json) {
   if (!d.what.empty()) fmt::print("first: {}, {}\n", d.what, apart_words(d.distance));
   if (d.angle > 0 || d.speed > 0)
     fmt::print("       bodies by {:.3g} rad, velocities by {:.3g} m/s\n", d.angle, d.speed);
+  if (found.first_contact) fmt::print("first contact: {}\n", found.first_contact->what);
   fmt::print("worst: {} at {} s, {}\n", found.worst.what, found.worst.time,
              apart_words(found.worst.distance));
+}
+
+/// What was said of bodies and the like is listed as it was said; of settings, numbers and machine
+/// is known what it came to.
+std::vector<WorldDifference> all_differences(const VerifyLine& line, const Side& a, const Side& b) {
+  std::vector<WorldDifference> out = differences(a.choice, b.choice);
+  const auto is_chosen = [](const std::string& one) {
+    return one.starts_with("settings.") || one.starts_with("parameters.") ||
+           one.find('.') >= one.find('=');
+  };
+  for (const auto& [own, which] : {std::pair(&line.a, 'a'), std::pair(&line.b, 'b')})
+    for (const std::string& one : *own) {
+      if (is_chosen(one)) continue;
+      const std::string path = one.substr(0, one.find('=')), value = one.substr(path.size() + 1);
+      const std::string scene = "as the scene has it";
+      WorldDifference& d = out.emplace_back(WorldDifference{path, scene, scene, scene, scene});
+      (which == 'a' ? d.value_a : d.value_b) = value;
+      (which == 'a' ? d.words_a : d.words_b) = value;
+    }
+  return out;
 }
 
 int run_verify(const VerifyLine& line) {
@@ -126,20 +183,24 @@ int run_verify(const VerifyLine& line) {
   csv.append("time,distance,angle,speed,same_bits,what\n");
   Comparison found;
   found.tolerance = line.tolerance;
-  for (const auto* side : {&*a, &*b}) side->built.world->stop_with(&stop.flag());
-  const Status ran =
-      run_lockstep(*a->built.world, *b->built.world, line.seconds, [&](const Divergence& d) {
-        found.see(d);
-        csv.append(fmt::format("{},{},{},{},{},\"{}\"\n", d.time, d.distance, d.angle, d.speed,
-                               int(d.same_bits), d.what));
-        // Without a file nobody asks how it goes on.
-        return !stop.requested() && (csv.wanted() || !found.first);
-      });
+  for (const auto* side : {&*a, &*b}) side->scene.built.world->stop_with(&stop.flag());
+  World &world_a = *a->scene.built.world, &world_b = *b->scene.built.world;
+  const LockstepSide side_a{world_a, a->choice.simd}, side_b{world_b, b->choice.simd};
+  const Status ran = run_lockstep(side_a, side_b, line.seconds, [&](const Divergence& d) {
+    const bool apart = found.first.has_value();
+    found.see(d);
+    if (found.first && !apart)
+      found.first_contact = first_contact_difference(*world_a.frame(), *world_b.frame());
+    csv.append(fmt::format("{},{},{},{},{},\"{}\"\n", d.time, d.distance, d.angle, d.speed,
+                           int(d.same_bits), d.what));
+    // Without a file nobody asks how it goes on.
+    return !stop.requested() && (csv.wanted() || !found.first);
+  });
   if (stop.requested()) return stop.exit_code();
   if (const Status written = csv.commit(); !written)
     return report(written.error(), exit_cannot_write);
   if (!ran) return report(ran.error(), exit_broken_down);
-  print_result(found, line.json);
+  print_result(found, all_differences(line, *a, *b), line.json);
   return found.first ? exit_negative : exit_ok;
 }
 
@@ -148,8 +209,10 @@ int run_verify(const VerifyLine& line) {
 CommandAction declare_verify(Options& options) {
   auto line = std::make_shared<VerifyLine>();
   options.value("scene", line->scene, "scene file, or a name of `tumble scenes`").required();
-  options.value("--a", line->a, "path=value, for world A only").one_each();
-  options.value("--b", line->b, "path=value, for world B only").one_each();
+  options.value("--a", line->a, "path=value, for world A only; threads=N and simd=NAME too")
+      .one_each();
+  options.value("--b", line->b, "path=value, for world B only; threads=N and simd=NAME too")
+      .one_each();
   options.value("--set", line->common, "path=value, for both").one_each();
   options.value("--threads-a", line->threads_a, "of world A; 0: one per core")
       .shows_default()
@@ -175,6 +238,7 @@ CommandAction declare_verify(Options& options) {
       "--tolerance 0.01\n"
       "  tumble verify cradle --a settings.tick_hz=60 --b settings.tick_hz=240 --tolerance 0.001 "
       "--csv apart.csv\n"
+      "  tumble verify tower --a simd=SCALAR --b threads=3\n"
       "  tumble verify mesh_pile --a settings.hierarchy=obb --b settings.hierarchy=aabb");
   return [line] { return run_verify(*line); };
 }

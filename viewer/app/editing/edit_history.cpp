@@ -16,14 +16,14 @@ DeedEdits EditHistory::begin(Session& session, std::string what, uint64_t tick,
                              std::vector<BodyId> selected) {
   undone_.clear();
   auto edits = std::make_shared<std::vector<SceneEdit>>();
-  done_.push_back({std::move(what), tick, edits, session.keep(), std::move(selected)});
+  done_.push_back({std::move(what), tick, edits, session.keep(), std::move(selected), course_});
   drop_oldest();
   return edits;
 }
 
 void EditHistory::note_beside(std::string what, std::function<void()> exchange) {
   undone_.clear();
-  done_.push_back({std::move(what), 0, nullptr, nullptr, {}, std::move(exchange)});
+  done_.push_back({std::move(what), 0, nullptr, nullptr, {}, course_, std::move(exchange)});
   drop_oldest();
 }
 
@@ -38,7 +38,8 @@ std::optional<EditHistory::Back> EditHistory::go(Session& session, std::deque<De
     to.push_back(deed);
     return Back{std::move(deed.what), {}, true};
   }
-  to.push_back({deed.what, deed.tick, deed.edits, session.keep(), std::move(selected)});
+  to.push_back({deed.what, deed.tick, deed.edits, session.keep(), std::move(selected), course_});
+  course_ = deed.course;
   session.restore(std::move(deed.moment));
   return Back{std::move(deed.what), std::move(deed.selected)};
 }
@@ -79,6 +80,13 @@ std::vector<uint64_t> EditHistory::ticks() const {
   std::vector<uint64_t> out;
   for (const Deed& deed : done_)
     if (deed.edits) out.push_back(deed.tick);
+  return out;
+}
+
+std::vector<uint64_t> EditHistory::ticks_of_this_course() const {
+  std::vector<uint64_t> out;
+  for (const Deed& deed : done_)
+    if (deed.edits && deed.course == course_) out.push_back(deed.tick);
   return out;
 }
 

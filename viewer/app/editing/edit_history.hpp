@@ -49,6 +49,10 @@ class EditHistory {
   DeedEdits newest() const;
   /// At which ticks the deeds to the world that hold were done.
   std::vector<uint64_t> ticks() const;
+  /// The same of those since the world was restarted last, on the course of history that is shown.
+  std::vector<uint64_t> ticks_of_this_course() const;
+  /// The world is restarted: what was done in the run that was left is not done in this one.
+  void begin_course() { course_ = ++courses_; }
   /// What was done last; "": nothing that can be taken back.
   std::string last() const { return done_.empty() ? std::string() : done_.back().what; }
   /// No deed to the world can be taken back.
@@ -61,16 +65,18 @@ class EditHistory {
     DeedEdits edits;
     std::shared_ptr<const Session::Kept> moment;
     std::vector<BodyId> selected;  ///< at that moment
+    int course = 0;                ///< of history, that moment is on
     /// Of a deed beside the world, which has neither edits nor a moment.
     std::function<void()> exchange{};
   };
   /// Back to the moment of the newest deed of `from`; with the moment of now it goes to `to`.
-  static std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
-                                std::vector<BodyId> selected);
+  std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
+                         std::vector<BodyId> selected);
   void drop_oldest();
 
   std::vector<DeedEdits> forgotten_;  ///< of deeds too old to be taken back
   std::deque<Deed> done_;             ///< with the moment before each
+  int course_ = 0, courses_ = 0;
   std::deque<Deed> undone_;  ///< with the moment at which each was taken back; the newest last
 };
 

@@ -2,6 +2,7 @@
 
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/saving/changed_lines.hpp"
+#include "engine/scene/saving/json_text_edit.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -18,6 +19,13 @@ namespace {
 fs::path folder_of(const fs::path& file) {
   std::error_code none;
   return fs::absolute(file, none).lexically_normal().parent_path();
+}
+
+/// Whether a scene names files, which are looked for from its folder.
+bool names_files(const std::string& scene) {
+  const JsonTextEdit text(scene);
+  using Path = JsonTextEdit::Path;
+  return text.value(Path{} / "meshes") || text.value(Path{} / "robots");
 }
 
 }  // namespace
@@ -118,7 +126,7 @@ void SceneSaver::look_at_trial() {
     if (const Status opens = trial_->outcome.get(); !opens) {
       tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
       // Files that it names may be found from another folder.
-      tried_->only_there = file_.pack.empty();
+      tried_->only_there = file_.pack.empty() && names_files(text_);
     }
     trial_.reset();
   }

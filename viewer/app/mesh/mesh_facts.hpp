@@ -9,6 +9,7 @@
 #include "viewer/app/mesh/mesh_field.hpp"
 #include "viewer/app/mesh/mesh_fit.hpp"
 #include "viewer/app/mesh/mesh_pieces.hpp"
+#include "viewer/app/mesh/mesh_wrap.hpp"
 
 #include <memory>
 #include <optional>
@@ -40,6 +41,7 @@ struct MeshFacts {
   PrincipalAxes principal;
   HullFacts hull;
   std::vector<HierarchyFacts> hierarchies;
+  std::optional<WrapFacts> wrap;                     ///< when `mesh` is a wrap of the file's
   std::optional<PiecesFacts> pieces;                 ///< when asked for
   std::optional<FieldFacts> field;                   ///< when asked for
   std::optional<FitFacts> fit;                       ///< when asked for

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -77,6 +78,25 @@ Status make_slice_folder(const FieldRequest& request) {
   return {};
 }
 
+/// A folder that was not there before goes again if nothing was put into it.
+class NewFolder {
+ public:
+  explicit NewFolder(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code none;
+    was_there_ = path_.empty() || std::filesystem::exists(path_, none);
+  }
+  ~NewFolder() {
+    std::error_code none;
+    if (!was_there_) std::filesystem::remove(path_, none);  // refuses one that is not empty
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+  bool was_there_ = true;
+};
+
 /// How many pictures were written before one failed or a signal came.
 Result<size_t> write_slices(const DistanceField& field, const Aabb& mesh,
                             const std::filesystem::path& folder, const StopSignal& stop) {
@@ -99,6 +119,7 @@ std::variant<FieldFacts, FieldFault> measure_field(const std::shared_ptr<const T
                                                    const FieldRequest& request,
                                                    const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
+  const NewFolder folder(request.slices);
   if (!request.slices.empty())
     if (const Status there = make_slice_folder(request); !there)
       return FieldFault{there.error(), true};

@@ -119,6 +119,21 @@ Json hierarchies_json(const std::vector<HierarchyFacts>& all) {
   return out;
 }
 
+Json wrap_json(const WrapFacts& f) {
+  const WrapReport& r = f.report;
+  Json out = {{"triangles_of_file", f.triangles},
+              {"gap", r.gap},
+              {"offset", r.offset},
+              {"cell", r.cell},
+              {"added", r.added},
+              {"missing", r.missing},
+              {"buried", r.buried},
+              {"bound", r.bound},
+              {"timing", {{"seconds", f.seconds}}}};
+  if (!f.file.empty()) out["out"] = f.file.string();
+  return out;
+}
+
 Json pieces_json(const PiecesFacts& f) {
   const ConvexDecomposition& d = f.decomposition;
   Json pieces = Json::array();
@@ -238,6 +253,7 @@ std::string mesh_json(const MeshFacts& f, const std::string& picture) {
       {"hull", hull_json(f)},
       {"hierarchies", hierarchies_json(f.hierarchies)},
       {"notes", f.notes}};
+  if (f.wrap) out["wrap"] = wrap_json(*f.wrap);
   if (f.pieces) out["decomposition"] = pieces_json(*f.pieces);
   if (f.field) out["distance_field"] = field_json(*f.field);
   if (f.fit) out["fit"] = fit_json(*f.fit);

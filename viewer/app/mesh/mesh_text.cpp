@@ -117,6 +117,7 @@ std::string mesh_text(const MeshFacts& f) {
                        counted(f.solid.shells.size(), "connected part", "connected parts")));
   if (f.solid.cavities)
     add_fact(out, "", counted(f.solid.cavities, "of them is a cavity", "of them are cavities"));
+  if (f.wrap) out += wrap_text(*f.wrap);
   add_surface(out, f);
   add_fact(out, "bounds [m]", row_text(f.box.min));
   add_fact(out, "", row_text(f.box.max));

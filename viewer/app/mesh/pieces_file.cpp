@@ -37,6 +37,27 @@ Status write_obj(const std::filesystem::path& file, const ConvexDecomposition& p
   return out.commit();
 }
 
+Status write_mesh_obj(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  constexpr size_t flushed = size_t{1} << 20;  // characters that are worth a write
+  FileWriter out(file);
+  std::string text = "# a wrapped mesh by Tumble, metres\n";
+  const auto flush = [&](size_t least) {
+    if (text.size() < least) return;
+    out.append(text);
+    text.clear();
+  };
+  for (const Vec3& v : mesh.vertices) {
+    text += fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
+    flush(flushed);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    flush(flushed);
+  }
+  flush(0);
+  return out.commit();
+}
+
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
 /// The numbers and the JSON of a glTF 2.0 asset (Khronos, "glTF 2.0 Specification", 2021).
@@ -133,6 +154,21 @@ class GltfAsset {
                 {"buffers", Json::array({Json::object()})}};
 };
 
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string out = file.extension().string();
+  std::ranges::transform(out, out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return out;
+}
+
+bool is_gltf(const std::filesystem::path& file) {
+  const std::string ending = lower_ending(file);
+  return ending == ".glb" || ending == ".gltf";
+}
+
+Status write_asset(const std::filesystem::path& file, const GltfAsset& asset) {
+  return write_file(file, lower_ending(file) == ".glb" ? asset.binary() : asset.text());
+}
+
 }  // namespace
 
 std::vector<std::string> piece_file_endings() {
@@ -140,14 +176,18 @@ std::vector<std::string> piece_file_endings() {
 }
 
 Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
-  if (ending != ".glb" && ending != ".gltf") return write_obj(file, pieces);
+  if (!is_gltf(file)) return write_obj(file, pieces);
   GltfAsset asset;
   for (size_t n = 0; n < pieces.pieces.size(); ++n)
     asset.add(fmt::format("piece_{:03}", n), to_mesh(pieces.pieces[n].hull));
-  return write_file(file, ending == ".glb" ? asset.binary() : asset.text());
+  return write_asset(file, asset);
+}
+
+Status write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  if (!is_gltf(file)) return write_mesh_obj(file, mesh);
+  GltfAsset asset;
+  asset.add("wrap", mesh);
+  return write_asset(file, asset);
 }
 
 }  // namespace tumble

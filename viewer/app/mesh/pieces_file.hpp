@@ -16,4 +16,7 @@ std::vector<std::string> piece_file_endings();
 /// themselves.
 Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces);
 
+/// The same of a mesh, whose faces are triangles.
+Status write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh);
+
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "viewer/app/session/second_world.hpp"
 
+#include "engine/dynamics/simd/simd_target.hpp"
 #include "engine/world/world.hpp"
 
 #include <algorithm>
@@ -10,7 +11,29 @@ namespace {
 
 constexpr size_t most_samples = 480;
 
+/// Whether ids mean the same in both: the same bodies and joints in the same slots.
+bool made_alike(const Frame& a, const Frame& b) {
+  const size_t slots = std::max(a.body_slots(), b.body_slots());
+  for (size_t slot = 0; slot < slots; ++slot) {
+    const bool in_a = slot < a.body_slots() && !a.body(slot).id.is_null();
+    const bool in_b = slot < b.body_slots() && !b.body(slot).id.is_null();
+    if (in_a != in_b) return false;
+    if (in_a && (a.body(slot).id != b.body(slot).id || a.info(slot).name != b.info(slot).name))
+      return false;
+  }
+  const std::vector<JointFrame> none;
+  const auto &p = a.joints ? *a.joints : none, &q = b.joints ? *b.joints : none;
+  return std::ranges::equal(p, q, [](const JointFrame& j, const JointFrame& k) {
+    return j.id == k.id && j.name == k.name;
+  });
+}
+
 }  // namespace
+
+SecondWorld::SecondWorld(WorldChoice choice, const World& made)
+    : choice_(std::move(choice)), origin_(made.save()) {
+  choice_.settings = made.settings();
+}
 
 void SecondWorld::stop_with(const StopFlag* flag) {
   stop_ = flag;
@@ -23,18 +46,37 @@ void SecondWorld::begin(const World& a) {
     std::lock_guard lock(mutex_);
     shown_ = {};
   }
-  auto made = World::create();
-  if (!made) return fail(made.error().text());
-  if (const Status loaded = (*made)->load(a.save()); !loaded) return fail(loaded.error().text());
-  if (const Status set = (*made)->set_settings(settings_); !set) return fail(set.error().text());
-  if (const Status done = (*made)->apply_commands(); !done) return fail(done.error().text());
-  world_ = std::move(*made);
+  if (const Status made = make(a); !made) {
+    world_.reset();
+    return fail(made.error().text());
+  }
   world_->stop_with(stop_);
-  begun_a_ = a.tick();
   begun_b_ = world_->tick();
-  commands_ = a.replay_log().entries().size();
+  // One of its own begins at the beginning, and so does A with it.
+  begun_a_ = from_start() ? begun_b_ : a.tick();
+  const auto& log = a.replay_log().entries();
+  commands_ = log.size();
+  if (a.tick() > begun_a_)
+    commands_ =
+        size_t(std::ranges::upper_bound(log, begun_a_, {}, &LoggedCommand::tick) - log.begin());
+  {
+    std::lock_guard lock(mutex_);
+    shown_.alone = from_start() && !made_alike(*a.frame(), *world_->frame());
+  }
   keyframes_.reset(*world_);
-  see(a);
+  follow(a);
+}
+
+Status SecondWorld::make(const World& a) {
+  WorldDef def;
+  def.threads = choice_.threads;
+  auto made = World::create(std::move(def));
+  if (!made) return made.error();
+  world_ = std::move(*made);
+  if (const Status done = world_->load(from_start() ? origin_ : a.save()); !done) return done;
+  if (const Status done = world_->set_settings(choice_.settings); !done) return done;
+  const SimdTarget target(choice_.simd);
+  return world_->apply_commands();
 }
 
 double SecondWorld::ticks_of_b(const World& a) const {
@@ -45,6 +87,7 @@ void SecondWorld::go_back(const World& a) {
   if (!world_ || a.tick() < begun_a_) return begin(a);
   const uint64_t tick = begun_b_ + uint64_t(ticks_of_b(a) + 1e-6);
   if (tick < keyframes_.first_tick()) return begin(a);
+  const SimdTarget target(choice_.simd);
   if (tick < world_->tick())
     if (const Status found = keyframes_.seek(*world_, tick); !found)
       return fail(found.error().text());
@@ -59,6 +102,7 @@ void SecondWorld::carry_out(const World& a, double until) {
   for (; commands_ < log.size(); ++commands_) {
     const LoggedCommand& entry = log[commands_];
     if (double(entry.tick - begun_a_) * tick > until + 0.5 * tick) return;
+    if (shown_.alone) continue;  // ids mean other bodies there
     if (std::holds_alternative<SetSettings>(entry.command)) continue;  // B has its own
     (void)world_->submit(entry.command);  // what B has lost cannot be changed in it
   }
@@ -66,6 +110,7 @@ void SecondWorld::carry_out(const World& a, double until) {
 
 void SecondWorld::follow(const World& a) {
   if (!world_) return;
+  const SimdTarget target(choice_.simd);
   const double step_b = world_->settings().tick.tick(), end = ticks_of_b(a) + 1e-6;
   while (double(world_->tick() - begun_b_) + 1 <= end) {
     carry_out(a, double(world_->tick() - begun_b_) * step_b);
@@ -100,6 +145,8 @@ void SecondWorld::see(const World& a) {
   if (std::abs(apart) > 1e-9) return;
   shown_.now = d;
   if (!d.same_bits && !shown_.first) shown_.first = d;
+  if (shown_.first && !shown_.first_contact)
+    shown_.first_contact = first_contact_difference(*frame_a, *frame_b);
   if (shown_.samples.empty() || d.distance > shown_.worst.distance) shown_.worst = d;
   if (!shown_.samples.empty() && shown_.samples.back().time >= d.time) return;
   shown_.samples.push_back({d.time, d.distance});

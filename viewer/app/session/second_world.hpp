@@ -5,7 +5,6 @@
 #include "engine/world/world_def.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 
-#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,15 +13,19 @@
 
 namespace tumble {
 
-/// World B of a comparison: what world A was at one moment, with other settings, stepped beside it
-/// under the same commands. A Session steps both on its thread; what is shown may be asked from any
-/// other one.
+/// World B of a comparison, chosen otherwise than A and stepped beside it under the same commands.
+/// It begins as A was at one moment, with other settings, or, where its numbers make another scene
+/// of it, as that scene at its first tick. A Session steps both on its thread; what is shown may be
+/// asked from any other one.
 class SecondWorld {
  public:
-  explicit SecondWorld(const WorldSettings& settings) : settings_(settings) {}
+  explicit SecondWorld(WorldChoice choice) : choice_(std::move(choice)) {}
+  /// The same scene with other numbers, at its first tick.
+  SecondWorld(WorldChoice choice, const World& made);
 
   // -- simulation thread --------------------------------------------------------------------------
-  /// B becomes what A is now, with its own settings. A failure is shown, and stops B.
+  /// B becomes what A is now, with its own settings, or begins at its own first tick and catches
+  /// up. A failure is shown, and stops B.
   void begin(const World& a);
   /// Carries out what was done to A since, but for settings, and steps B up to A's moment.
   void follow(const World& a);
@@ -39,11 +42,14 @@ class SecondWorld {
     uint64_t tick_from = 0, tick_to = 0;    ///< of A
     std::vector<Sample> samples;            ///< of the latest moments that both have, oldest first
     std::optional<Divergence> first;        ///< the first moment at which a bit differs
+    std::optional<ContactDifference> first_contact;  ///< that differed
+    bool alone = false;  ///< it has other bodies: what is done to A is not done to it
     Divergence now, worst;
     std::string fault;  ///< why B stopped; empty: it did not
   };
   Shown shown() const;
-  const WorldSettings& settings() const { return settings_; }
+  const WorldChoice& choice() const { return choice_; }
+  bool from_start() const { return !origin_.empty(); }
 
  private:
   /// B's time since the beginning over that of A, in ticks of B.
@@ -52,7 +58,10 @@ class SecondWorld {
   void see(const World& a);
   void fail(const std::string& why);
 
-  WorldSettings settings_;
+  Status make(const World& a);
+
+  WorldChoice choice_;
+  Bytes origin_;  ///< of a world of its own, at its first tick; empty: it is what A was
   std::unique_ptr<World> world_;
   KeyframeRing keyframes_;
   const StopFlag* stop_ = nullptr;

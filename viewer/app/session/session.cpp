@@ -49,6 +49,14 @@ struct Session::Kept {
   std::atomic<size_t> bytes = 0;  ///< without keyframes, which are shared
 };
 
+struct Session::Way {
+  Bytes world;  ///< geometry included
+  ReplayLog log;
+  KeyframeRing keyframes;
+  uint64_t tick = 0;
+  std::atomic<bool> filled = false;
+};
+
 Session::Session(std::unique_ptr<World> world, SessionOptions options)
     : world_(std::move(world)),
       keyframes_(options.keyframe_bytes, options.keyframe_ticks),
@@ -296,6 +304,37 @@ void Session::restore(std::shared_ptr<const Kept> kept) {
     note_rewind();
     publish(0);
   });
+}
+
+std::shared_ptr<const Session::Way> Session::way() {
+  auto way = std::make_shared<Way>();
+  enqueue([this, way] {
+    way->world = world_->save();
+    way->log = world_->replay_log();
+    way->keyframes = keyframes_;
+    way->tick = world_->tick();
+    way->filled = true;
+  });
+  return way;
+}
+
+std::optional<std::pair<uint64_t, uint64_t>> Session::ticks_of(const Way& way) {
+  if (!way.filled) return std::nullopt;
+  return std::pair(way.keyframes.first_tick(), way.tick);
+}
+
+Status Session::go(const Way& way, uint64_t from, const StopFlag& stop,
+                   const std::function<bool(const World&)>& each) {
+  WorldDef def;
+  def.threads = 1;  // the others are the running world's
+  auto made = World::create(std::move(def));
+  if (!made) return made.error();
+  World& world = **made;
+  world.stop_with(&stop);
+  if (const Status done = world.load(way.world); !done) return done;
+  // The same moment with the commands that led to it.
+  if (const Status done = world.restore({world.save(false), way.log}); !done) return done;
+  return way.keyframes.walk(world, from, each);
 }
 
 SessionView Session::view() {

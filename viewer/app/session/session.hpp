@@ -17,6 +17,7 @@
 #include <optional>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 namespace tumble {
 
@@ -136,6 +137,18 @@ class Session {
   /// Puts the world back to a kept moment, with the past that it had then: stepping back from it,
   /// and restart, go the way that led to it.
   void restore(std::shared_ptr<const Kept> moment);
+
+  /// All that it takes to go the way to the present once more, elsewhere.
+  struct Way;
+  /// The way to the present of this world. Filled on the simulation thread.
+  std::shared_ptr<const Way> way();
+  /// The present that it leads to, and where it begins; nothing until it is filled.
+  static std::optional<std::pair<uint64_t, uint64_t>> ticks_of(const Way& way);
+  /// Goes a way, in a world of its own, on the caller's thread, from `from` on: `each` sees the
+  /// world at every tick as it was left there, and says whether to go on. Error: a tick failed, or
+  /// `stop` was requested.
+  static Status go(const Way& way, uint64_t from, const StopFlag& stop,
+                   const std::function<bool(const World&)>& each);
 
   // -- one reading thread -------------------------------------------------------------------------
   /// The two newest frames and where between them the present moment lies.

@@ -1,7 +1,7 @@
 #include "viewer/app/session/shown_settings.hpp"
 
 #include "engine/world/world.hpp"
-#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/verify/differences.hpp"
 
 #include <mutex>
 #include <utility>

@@ -13,10 +13,12 @@ namespace {
 
 using FramePtr = std::shared_ptr<const Frame>;
 
-Result<FramePtr> run_at(const SceneRequest& request, uint64_t ticks, int finer) {
+Result<FramePtr> run_at(const SceneRequest& request, uint64_t ticks, int finer,
+                        const StopFlag* stop) {
   auto scene = load_scene_and_world(request);
   if (!scene) return scene.error();
   World& world = *scene->built.world;
+  world.stop_with(stop);
   WorldSettings settings = world.settings();
   settings.tick.num *= finer;
   if (Status s = world.set_settings(settings); !s) return s.error();
@@ -77,10 +79,12 @@ void estimate_errors(ConvergenceRow& row) {
 
 }  // namespace
 
-Result<ConvergenceReport> measure_convergence(const SceneRequest& request, uint64_t ticks) {
+Result<ConvergenceReport> measure_convergence(const SceneRequest& request, uint64_t ticks,
+                                              const StopFlag* stop) {
+  const Stoppable scope(stop);
   std::array<FramePtr, 3> run;
   for (size_t i = 0; i < 3; ++i) {
-    auto frame = run_at(request, ticks, 1 << i);
+    auto frame = run_at(request, ticks, 1 << i, stop);
     if (!frame) return frame.error();
     run[i] = *frame;
   }

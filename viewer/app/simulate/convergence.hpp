@@ -1,4 +1,5 @@
 #pragma once
+#include "engine/core/stop.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 
 #include <array>
@@ -28,8 +29,10 @@ struct ConvergenceReport {
 };
 
 /// Runs a scene with its tick, half of it and a quarter of it, over the same time: `ticks` of the
-/// first. Errors: those of loading and of steps.
-Result<ConvergenceReport> measure_convergence(const SceneRequest& request, uint64_t ticks);
+/// first. Errors: those of loading and of steps; `cancelled` once `stop`, which may be null, is
+/// requested.
+Result<ConvergenceReport> measure_convergence(const SceneRequest& request, uint64_t ticks,
+                                              const StopFlag* stop = nullptr);
 
 /// A table for people.
 std::string convergence_text(const ConvergenceReport& report);

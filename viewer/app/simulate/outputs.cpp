@@ -65,7 +65,12 @@ void EnergyCsv::write_header(const Frame& frame) {
     for (const JointFrame& joint : *frame.joints)
       if (names_->joints.contains(joint.name))
         for (std::string& name : joint_quantities(joint))
-          line += "," + field(of_joints_.emplace_back(std::move(name)));
+          line += "," + field(named_.emplace_back(std::move(name)));
+  for (const auto& system : frame.particles)
+    if (names_->particles.contains(system->name))
+      for (const char* what : {"count", "speed", "temperature"})
+        line +=
+            "," + field(named_.emplace_back(fmt::format("particles.{}.{}", system->name, what)));
   for (const StageTime& stage : stats.stages) {
     stages_.emplace_back(stage.name);
     line += fmt::format(",{}_ms", field(stage.name));
@@ -111,7 +116,7 @@ void EnergyCsv::write_row(const Frame& frame) {
     for (const SensorValue& v : sensor_values(*sensor)) line += numbers({v.value});
   }
   // What a joint that broke no longer has is an empty cell.
-  for (const std::string& name : of_joints_) {
+  for (const std::string& name : named_) {
     const auto value = quantity(*names_, frame, name);
     line += value ? numbers({*value}) : ",";
   }

@@ -15,7 +15,8 @@ struct BuiltScene;
 
 /// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
 /// (work, and the change of the energy by it), what sensors say, coordinates and reactions of
-/// joints by the names of quantity(), and the wall time of each stage. More than `most_joints`
+/// joints, count, speed and temperature of particle systems by the names of quantity(), and the
+/// wall time of each stage. More than `most_joints`
 /// joints are left out: JointCsv has a row for each. The columns are those of the first step;
 /// stages that appear later are left out, and so are forces without a name.
 class EnergyCsv {
@@ -37,7 +38,7 @@ class EnergyCsv {
   std::vector<std::string> stages_;
   std::vector<SensorId> sensors_;
   std::shared_ptr<const BuiltScene> names_;
-  std::vector<std::string> of_joints_;
+  std::vector<std::string> named_;  ///< names of quantity()
   bool header_ = false;
   std::string start_row_;
 };

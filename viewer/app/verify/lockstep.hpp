@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/core/result.hpp"
+#include "viewer/ui/comparison.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -22,14 +23,25 @@ struct Divergence {
   std::string what;       ///< where the distance is greatest: "ball", "water particle 12"
 };
 
-/// Compares two frames of worlds that were made from the same scene: body by body in the order of
-/// their slots, particle by particle. What only one has is infinitely far away.
+/// Compares two frames of worlds that were made from the same scene: body by body, those that stand
+/// in the same slot under the same name or, where slots differ, by their names; particle by
+/// particle. What only one has is infinitely far away.
 Divergence divergence(const Frame& a, const Frame& b);
+
+/// The first contact, in the order of bodies, that only one of two frames has, or that presses or
+/// gapes otherwise. Its bodies are A's, or those that A calls as B does.
+std::optional<ContactDifference> first_contact_difference(const Frame& a, const Frame& b);
+
+/// One of two worlds, and the instruction set that its ticks take (SimdTarget).
+struct LockstepSide {
+  World& world;
+  std::string simd = {};
+};
 
 /// Steps two worlds side by side until `seconds`, the one that is behind first, and gives `each`
 /// the divergence at every moment that is a tick of both; false ends it. Error: a tick of A or B
 /// failed, and which.
-Status run_lockstep(World& a, World& b, double seconds,
+Status run_lockstep(const LockstepSide& a, const LockstepSide& b, double seconds,
                     const std::function<bool(const Divergence&)>& each);
 
 }  // namespace tumble

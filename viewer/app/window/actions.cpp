@@ -1,7 +1,7 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/editing/edits_at_start.hpp"
 #include "viewer/app/scenes/scene_lesson.hpp"
-#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/open_scene.hpp"
 
@@ -361,8 +361,8 @@ void Application::apply(const UiRequest& request) {
     edit_joint(*joint_edit);
   } else if (const auto* joint = std::get_if<RemoveJoint>(&request)) {
     remove_joint(joint->id);
-  } else if (const auto* settings = std::get_if<Compare>(&request)) {
-    compare(settings->settings);
+  } else if (const auto* chosen = std::get_if<Compare>(&request)) {
+    compare(chosen->choice);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
   } else if (const auto* part = std::get_if<EditPart>(&request)) {
@@ -408,6 +408,7 @@ void Application::restart(bool as_scene) {
                           do_at_start(world, deeds, parts, live, refusal);
                         });
   deeds_.jump(!changed.empty());
+  deeds_.edits().begin_course();
   if (changed.empty()) return;
   const std::string names = fmt::format("{}", fmt::join(changed, ", "));
   if (as_scene)
@@ -418,27 +419,62 @@ void Application::restart(bool as_scene) {
         {"Kept: " + names, shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
 }
 
-/// Other settings of a world B that is there are a deed beside world A.
-void Application::compare(const WorldSettings& wanted) {
-  if (const WorldComparison* now = second_.comparison())
-    deeds_.begin_beside("Change settings of B", in_gesture(),
-                        [this, other = now->settings]() mutable {
-                          const WorldComparison* shown = second_.comparison();
-                          if (!shown) return;
-                          const WorldSettings those = std::exchange(other, shown->settings);
-                          second_.begin(session(), those, scene_.trail);
-                        });
-  second_.begin(session(), wanted, scene_.trail);
+/// How the world that is shown was chosen.
+WorldChoice Application::own_choice() const {
+  WorldChoice choice;
+  choice.settings = settings_.value();
+  choice.threads = options_.threads;
+  for (const SceneParameter& p : scene_.parameters) choice.numbers.emplace_back(p.name, p.value);
+  return choice;
 }
 
-/// One of which nothing is known of earlier moments says so.
+/// Another choice for a world B that is there is a deed beside world A.
+void Application::compare(const WorldChoice& wanted) {
+  if (const WorldComparison* now = second_.comparison())
+    deeds_.begin_beside("Change what is chosen for B", in_gesture(),
+                        [this, other = now->choice]() mutable {
+                          const WorldComparison* shown = second_.comparison();
+                          if (!shown) return;
+                          const WorldChoice those = std::exchange(other, shown->choice);
+                          begin_comparison(those);
+                        });
+  begin_comparison(wanted);
+}
+
+/// Other numbers make another scene of it, which is opened beside; what is only settings goes on
+/// from this moment.
+void Application::begin_comparison(const WorldChoice& wanted) {
+  WorldChoice of_file = own_choice();
+  of_file.settings = settings_.of_scene();
+  const std::vector<WorldDifference> different = differences(of_file, wanted);
+  const auto is_number = [](const WorldDifference& d) { return d.path.starts_with("parameters."); };
+  if (std::ranges::none_of(different, is_number))
+    return second_.begin(session(), wanted, scene_.trail);
+  if (recording_forbids("comparing from the start")) return;
+  deeds_.finish(session(), options_.own_thread);
+  SceneWish wish = scene_.wish;
+  if (deeds_.unsaved().any()) wish.text = deeds_.unsaved().text();
+  for (std::string& one : overrides_of(different)) wish.overrides.push_back(std::move(one));
+  if (options_.own_thread) return second_.open(options_.open, std::move(wish), wanted);
+  show_second({wanted, options_.open(wish)});
+}
+
+/// Both begin at the start of the scene.
+void Application::show_second(ComparisonDesk::Opened opened) {
+  if (!opened.scene)
+    return ui_.toast(ToastKind::error, "The scene cannot be opened with the numbers of B",
+                     {opened.scene.error().text()});
+  restart(false);
+  second_.begin(session(), std::move(opened.choice), scene_.trail, opened.scene->world.get());
+}
+
+/// Of one that is added late the past is computed.
 void Application::add_curve(Quantity quantity) {
-  const size_t before = instruments_.measures.series().size();
-  instruments_.measures.add(std::move(quantity), world_.frame());
-  if (instruments_.measures.series().size() == before || world_.frame().tick == 0) return;
-  ui_.toast(ToastKind::info, "The curve begins at this moment",
-            {fmt::format("{} begins the run again: it is then drawn from the start.",
-                         shortcut_of(Action::restart))});
+  Measures& measures = instruments_.measures;
+  const size_t before = measures.series().size();
+  measures.add(std::move(quantity), world_.frame());
+  if (measures.series().size() > before && world_.frame().tick > session().counters().first_tick)
+    measures.want_past(before);
 }
 
 void Application::toggle_recording(bool video) {

@@ -107,6 +107,7 @@ void Application::finish() {
 
 void Application::look_at_view() {
   using enum ShownWorld::News;
+  const uint64_t seen_last = world_.frame().tick;
   const ShownWorld::News news = world_.look();
   if (news == none) return;
   camera_.carry(world_.view());
@@ -125,9 +126,14 @@ void Application::look_at_view() {
   marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
   instruments_.history.add(world_.frame());
   instruments_.measures.see(world_.frame(), world_.frame().tick < deeds_.newest_tick());
+  // Nobody has seen what lies between.
+  if (news == ahead || (session().paused() && world_.frame().tick > seen_last + 1))
+    instruments_.measures.want_past();
+  if (news != goes_on) instruments_.past.note_jump();
+  instruments_.past.update(session(), instruments_.measures, options_.own_thread);
   instruments_.ruler.update(world_.frame());
   if (news == ahead) second_.restart_trail();
-  second_.update(world_.frame());
+  second_.update(world_.frame(), own_choice());
   // Closed by its button: nobody looks any more.
   if (!ui_.shows(PanelId::contact)) instruments_.probe.clear();
   instruments_.probe.update(session(), world_.view().to);
@@ -183,7 +189,7 @@ UiModel Application::model() const {
   m.dropped_seconds = counters.dropped_seconds;
   m.first_tick = counters.first_tick;
   m.last_tick = std::max(deeds_.newest_tick(), m.frame->tick);
-  m.deed_ticks = deeds_.edits().ticks();
+  m.deed_ticks = deeds_.edits().ticks_of_this_course();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
   m.way_to = counters.way_to;
@@ -198,6 +204,7 @@ UiModel Application::model() const {
   m.history = &instruments_.history;
   m.comparison = second_.comparison();
   m.measures = &instruments_.measures;
+  m.past_share = instruments_.past.share();
   m.marks = &marks_.marks().time;
   m.clock = &marks_.clock();
   m.ruler = &instruments_.ruler.view();
@@ -249,6 +256,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   const double width = picture.width / picture.scale, height = picture.height / picture.scale;
 
   if (auto opened = opening_.take()) finish_opening(*std::move(opened));
+  if (auto opened = second_.take_opened()) show_second(*std::move(opened));
   world_.recorder().look_through(instruments_.microscope.setup(ui_.microscope));
   world_.advance(dt);
   look_at_view();

@@ -142,7 +142,10 @@ class Application {
   bool dialog_open() const;
   void press_in_dialog(const KeyPressed& key);
   void add_curve(Quantity quantity);
-  void compare(const WorldSettings& wanted);
+  WorldChoice own_choice() const;
+  void compare(const WorldChoice& wanted);
+  void begin_comparison(const WorldChoice& wanted);
+  void show_second(ComparisonDesk::Opened opened);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   bool give_up_gesture();
   void close_something();
@@ -179,6 +182,7 @@ class Application {
   std::optional<Vec3> handle_grip(std::string_view name) const;
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
+  void rename_body(const std::string& name, const std::string& to);
   void edit_joint(const EditJoint& edit);
   void take_mesh_modes();
   void remove_joint(JointId id);
@@ -191,6 +195,8 @@ class Application {
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void choose(const std::vector<std::string>& overrides, std::string what, uint64_t tick);
+  void choose(SceneWish after, std::string what, uint64_t tick);
+  SceneWish wish_of_now();
   bool go_back_on(std::optional<ChoiceHistory::Step> choice);
   void shoot(const Ray& ray);
   void end_drag();
@@ -289,6 +295,7 @@ class Application {
   std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
   bool searched_ = false;               ///< for something to be plotted
   Thumbnails thumbnails_;
+  std::optional<std::pair<std::string, std::string>> renaming_;  ///< a body, while that is opened
   std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
   bool quit_ = false, full_screen_ = false;
 };

@@ -1,4 +1,4 @@
-#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/capture/atomic_file.hpp"
 #include "viewer/ui/style.hpp"
@@ -64,7 +64,7 @@ bool Application::stands_beside() const {
 
 /// What world A and B are called, at the head of their pictures.
 void Application::name_pictures(RenderScene& a, RenderScene& b) const {
-  const auto& [of_a, of_b] = names_by_settings(settings_.value(), second_.comparison()->settings);
+  const auto& [of_a, of_b] = names_by(second_.comparison()->differences);
   constexpr float below_bar = 60, at_top = 14;  // [UI units]
   for (const auto& [picture, letter, words] :
        {std::tuple(&a, "A", &of_a), std::tuple(&b, "B", &of_b)}) {

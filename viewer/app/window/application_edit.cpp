@@ -1,6 +1,6 @@
 // What a person changes in the world, and takes back.
 #include "engine/world/world.hpp"
-#include "viewer/app/session/changed_settings.hpp"
+#include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
 
 #include <algorithm>
@@ -197,6 +197,11 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
 }
 
 void Application::edit_body(const EditBody& edit) {
+  if (const auto def = tools_.selected_def.def(); def && edit.id == selection_.main()) {
+    BodyDef after = *def;
+    edit.change(after);
+    if (after.name != def->name) return rename_body(def->name, after.name);
+  }
   const DeedEdits edits = begin_edit(edit.what, true);
   tools_.selected_def.expect(edit);
   session().post([edit, edits, refusal = tools_.refusal](World& world) {
@@ -205,8 +210,10 @@ void Application::edit_body(const EditBody& edit) {
     BodyDef after = *before;
     edit.change(after);
     if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
-    if (edits->empty()) edits->push_back(ChangedBody{before->name, *before, after});
-    if (auto* change = std::get_if<ChangedBody>(&edits->front())) edit.change(change->after);
+    if (edits->empty())
+      edits->push_back(ChangedBody{before->name, *before, after});
+    else if (auto* change = std::get_if<ChangedBody>(&edits->front()))
+      edit.change(change->after);
   });
 }
 

@@ -1,5 +1,7 @@
 // The scene's file: opened, changed by others, saved, and what was not saved.
+#include "engine/scene/saving/dependents.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/window/application.hpp"
 #include "viewer/app/window/folder_browser.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -45,12 +47,17 @@ void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
 Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const {
   LookedAt out;
   const World& world = *scene.world;
+  const auto name_there = [&](const std::string& name) {
+    return renaming_ && renaming_->first == name ? renaming_->second : name;
+  };
   for (const BodyId id : selection_.all())
-    if (const BodyId there = world.find_body(name_of(id)); !there.is_null())
+    if (const BodyId there = world.find_body(name_there(name_of(id))); !there.is_null())
       out.selected.push_back(there);
   const auto& named = scene.quantities;
   for (const Measures::Series& curve : instruments_.measures.series()) {
-    const std::string& name = curve.quantity.name;
+    std::string name = curve.quantity.name;
+    if (const size_t owner = name.rfind(": "); owner != std::string::npos)
+      name = name_there(name.substr(0, owner)) + name.substr(owner);
     if (auto found = quantity_of_name(*world.frame(), name))
       out.curves.push_back(*std::move(found));
     else if (named && std::ranges::find(*named->names, name) != named->names->end())
@@ -104,6 +111,7 @@ void Application::finish_opening(SceneOpening::Opened done) {
                                                       : deeds_.unsaved().free_name();
   }
   const LookedAt looked_at = same ? looked_at_in(*opened) : LookedAt{};
+  renaming_.reset();
   const SceneCamera camera = camera_;
   show(std::move(*opened), same);
   keep_choices(cause);
@@ -224,8 +232,9 @@ void Application::ask_to_quit() {
 }
 
 void Application::change_parameter(const ChangeParameter& change) {
-  choose({fmt::format("parameters.{}={}", change.name, change.value)}, "Change " + change.name,
-         world_.frame().tick);
+  const std::vector<std::string> number = {
+      fmt::format("parameters.{}={}", change.name, change.value)};
+  choose(number, "Change " + change.name, world_.frame().tick);
 }
 
 /// The moments that deeds go back to are of this world. Where another comes in its place, the deeds
@@ -251,25 +260,51 @@ std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& 
   return out;
 }
 
+/// How the scene is opened to be what it is now, with what was changed here.
+SceneWish Application::wish_of_now() {
+  // What was done just now counts, too.
+  deeds_.finish(session(), options_.own_thread);
+  SceneWish wish = scene_.wish;
+  if (deeds_.unsaved().any()) wish.text = deeds_.unsaved().text();
+  return wish;
+}
+
 /// The scene anew with other numbers, and with what was changed here, at the moment `tick`.
 void Application::choose(const std::vector<std::string>& overrides, std::string what,
                          uint64_t tick) {
-  // What was done just now counts, too.
-  deeds_.finish(session(), options_.own_thread);
-  SceneWish before = scene_.wish;
-  if (deeds_.unsaved().any()) before.text = deeds_.unsaved().text();
-  SceneWish after = before;
+  SceneWish after = wish_of_now();
   for (const std::string& one : overrides) {
     const std::string path = one.substr(0, one.find('=') + 1);
     std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
     after.overrides.push_back(one);
   }
+  choose(std::move(after), std::move(what), tick);
+}
+
+void Application::choose(SceneWish after, std::string what, uint64_t tick) {
   SceneOpening::Cause cause;
-  cause.choice = ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), before, after};
+  cause.choice =
+      ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), wish_of_now(), after};
   cause.choice->leave_at(world_.frame().tick);
   cause.deeds = deeds_as_choices(scene_.wish, scene_.file.text);
   cause.tick = tick;
-  open_for(std::move(cause), after);
+  open_for(std::move(cause), std::move(after));
+}
+
+/// Everything in the scene that names it does so anew: it is opened once more, at this moment.
+void Application::rename_body(const std::string& name, const std::string& to) {
+  SceneWish after = wish_of_now();
+  auto text = renamed(after.text.value_or(scene_.file.text), "bodies", name, to);
+  if (text) {
+    if (const Status opens = check_scene_text(*text, scene_.file.path); !opens)
+      text = opens.error();
+  }
+  if (!text)
+    return ui_.toast(ToastKind::warning, fmt::format("{} cannot be called {}", name, to),
+                     lines_of(text.error().text()));
+  after.text = std::move(*text);
+  renaming_ = {name, to};
+  choose(std::move(after), fmt::format("Rename {} to {}", name, to), world_.frame().tick);
 }
 
 /// A choice taken back, or made again; false when there is none.

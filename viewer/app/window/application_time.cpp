@@ -313,6 +313,9 @@ bool Application::apply_in_time(const UiRequest& request) {
     follow_from_key(*followed);
   } else if (const auto* curve = std::get_if<AddNamedCurve>(&request)) {
     if (scene_.quantities) add_curve(scene_.quantities->find(curve->name));
+  } else if (std::holds_alternative<LeavePast>(request)) {
+    instruments_.measures.forget_past();
+    instruments_.past.forget();
   } else if (std::holds_alternative<WritePlot>(request)) {
     plot_wanted_ = true;
   } else {

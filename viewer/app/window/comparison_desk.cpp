@@ -1,5 +1,6 @@
 #include "viewer/app/window/comparison_desk.hpp"
 
+#include "viewer/app/verify/differences.hpp"
 #include "viewer/render/extract.hpp"
 
 #include <algorithm>
@@ -62,12 +63,28 @@ BodyId body_named(const Frame& frame, const std::string& name) {
 
 }  // namespace
 
-void ComparisonDesk::begin(Session& session, const WorldSettings& settings, double trail) {
-  second_ = std::make_shared<SecondWorld>(settings);
+void ComparisonDesk::begin(Session& session, WorldChoice choice, double trail, const World* made) {
+  opening_.reset();
+  second_ = made ? std::make_shared<SecondWorld>(std::move(choice), *made)
+                 : std::make_shared<SecondWorld>(std::move(choice));
   seen_ = {};
   trail_ = trail;
   restart_trail();
   session.set_second(second_);
+}
+
+void ComparisonDesk::open(SceneOpener open, SceneWish wish, WorldChoice choice) {
+  wanted_ = std::move(choice);
+  opening_ = std::make_unique<SceneLoader>();
+  opening_->start(std::move(open), std::move(wish));
+}
+
+std::optional<ComparisonDesk::Opened> ComparisonDesk::take_opened() {
+  if (!opening_) return std::nullopt;
+  auto loaded = opening_->take();
+  if (!loaded) return std::nullopt;
+  opening_.reset();
+  return Opened{std::move(wanted_), std::move(loaded->scene)};
 }
 
 void ComparisonDesk::end(Session& session) {
@@ -75,12 +92,24 @@ void ComparisonDesk::end(Session& session) {
   forget();
 }
 
-void ComparisonDesk::update(const Frame& shown) {
+void ComparisonDesk::forget() {
+  opening_.reset();
+  second_.reset();
+  seen_ = {};
+  comparison_ = {};
+}
+
+void ComparisonDesk::update(const Frame& shown, const WorldChoice& of_a) {
+  if (!comparison()) return;
+  comparison_ = {};
+  comparison_.opening = opening_ != nullptr;
+  comparison_.choice = opening_ ? wanted_ : second_->choice();
+  comparison_.differences = differences(of_a, comparison_.choice);
   if (!second_) return;
   seen_ = second_->shown();
   if (seen_.to) trails_.see(*seen_.to);
-  comparison_ = {};
-  comparison_.settings = second_->settings();
+  comparison_.from_start = second_->from_start();
+  comparison_.alone = seen_.alone;
   for (const SecondWorld::Sample& sample : seen_.samples) {
     comparison_.times.push_back(sample.time);
     comparison_.distances.push_back(float(sample.distance));
@@ -94,6 +123,7 @@ void ComparisonDesk::update(const Frame& shown) {
   comparison_.first_tick = seen_.first->tick_a;
   comparison_.first_what = seen_.first->what;
   comparison_.first_body = body_named(shown, seen_.first->what);
+  comparison_.first_contact = seen_.first_contact;
 }
 
 std::optional<SessionView> ComparisonDesk::view(const SessionView& shown) const {

@@ -2,6 +2,7 @@
 #include "viewer/app/session/contact_probe.hpp"
 #include "viewer/app/session/event_watch.hpp"
 #include "viewer/app/session/microscope_probe.hpp"
+#include "viewer/app/session/past_curves.hpp"
 #include "viewer/app/window/microscope_desk.hpp"
 #include "viewer/app/window/ruler.hpp"
 #include "viewer/ui/history.hpp"
@@ -17,6 +18,7 @@ namespace tumble {
 struct Instruments {
   History history;
   Measures measures;
+  PastCurves past;  ///< of those
   Ruler ruler;
   std::shared_ptr<EventWatch> events;  ///< of the world that is shown
   ContactProbe probe;
@@ -27,6 +29,7 @@ struct Instruments {
   void open(std::optional<MicroscopeSetup> of_scene) {
     history.clear();
     measures.clear();
+    past.forget();
     ruler.forget();
     events = std::make_shared<EventWatch>();
     probe.clear();

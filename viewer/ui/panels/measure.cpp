@@ -78,7 +78,20 @@ void draw_search(PanelContext& context) {
   search.clear();
 }
 
-TimeCurve curve_of(const Measures::Series& series, size_t index) {
+/// The past of curves that were added late, while it is being computed.
+void draw_past(PanelContext& context) {
+  const auto& share = context.model.past_share;
+  if (!share) return;
+  const std::string text = fmt::format("computing the past: {:.0f} %", 100 * *share);
+  ImGui::ProgressBar(float(*share), ImVec2(ImGui::GetContentRegionAvail().x - 30, 0), text.c_str());
+  context.host.mark("measure.past");
+  ImGui::SameLine();
+  if (icon_button(context, "measure.leave_past", Icon::close, "the curves begin where they do now",
+                  {}, 20))
+    context.ask(LeavePast{});
+}
+
+PlottedCurve curve_of(const Measures::Series& series, size_t index) {
   return {series.quantity.name, series.quantity.unit,
           palette::series[index % palette::series_count], series.at, series.values};
 }
@@ -151,7 +164,7 @@ void draw_phase(PanelContext& context, float height) {
 
 void draw_together(PanelContext& context, float height) {
   const auto& all = context.model.measures->series();
-  std::vector<TimeCurve> curves;
+  std::vector<PlottedCurve> curves;
   for (size_t i = 0; i < all.size(); ++i) curves.push_back(curve_of(all[i], i));
   plot_over_time(context, "measure.all", curves, height);
 }
@@ -163,12 +176,13 @@ void draw_measure_panel(PanelContext& context) {
   draw_search(context);
   const auto& all = context.model.measures->series();
   if (all.empty()) return;
+  draw_past(context);
   draw_form(context);
   PlotChoice& choice = context.state.plot;
   for (size_t i = 0; i < all.size(); ++i) {
     draw_heading(context, all[i], i);
     if (choice.form != PlotForm::apart) continue;
-    const TimeCurve curve = curve_of(all[i], i);
+    const PlottedCurve curve = curve_of(all[i], i);
     plot_over_time(context, fmt::format("measure.{}", i), std::span(&curve, 1), 92);
   }
   if (choice.form == PlotForm::together) draw_together(context, 190);
@@ -223,7 +237,7 @@ void draw_plot_page(PanelContext& context, float width, float height) {
     draw_together(context, rest);
   else
     for (size_t i = 0; i < all.size(); ++i) {
-      const TimeCurve curve = curve_of(all[i], i);
+      const PlottedCurve curve = curve_of(all[i], i);
       plot_over_time(context, fmt::format("page.{}", i), std::span(&curve, 1),
                      rest / float(all.size()) - ImGui::GetStyle().ItemSpacing.y);
     }

@@ -3,6 +3,8 @@
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
+#include <limits>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -18,9 +20,25 @@ std::string reading(const Frame& frame, const std::string& name) {
       return fmt::format("{} forward, {} back", sensor.forward, sensor.backward);
     if (sensor.kind == SensorKind::region)
       return fmt::format("{} inside", sensor.inside.size() + sensor.particles);
+    if (sensor.kind == SensorKind::radial)
+      for (const SensorValue& value : sensor_values(sensor))
+        if (value.name == "peak") return fmt::format("peak {:.3g}", value.value);
     return sensor.touching ? "touches" : "apart";
   }
   return {};
+}
+
+/// The curve of a radial distribution.
+void draw_curve(PanelContext& context, const std::string& name) {
+  if (!context.model.frame->sensors) return;
+  for (const SensorFrame& sensor : *context.model.frame->sensors) {
+    if (sensor.name != name || sensor.kind != SensorKind::radial) continue;
+    const std::vector<float> g(sensor.shells.begin(), sensor.shells.end());
+    const std::string to = fmt::format("g(r), r to {:.3g} m", sensor.range);
+    ImGui::PlotLines("##radial", g.data(), int(g.size()), 0, to.c_str(), 0,
+                     std::numeric_limits<float>::max(), ImVec2(-1, 6 * ImGui::GetTextLineHeight()));
+    context.host.mark("parts.radial");
+  }
 }
 
 void draw_list(PanelContext& context, const char* title, std::string_view key,
@@ -60,7 +78,10 @@ void draw_parts_panel(PanelContext& context) {
     section(context, chosen.name.c_str());
     if (ImGui::Button("Delete")) context.ask(RemovePart{chosen.name, *part});
     context.host.mark("parts.delete");
-    if (chosen.list == "sensors") note("It begins anew with each change.");
+    if (chosen.list == "sensors") {
+      note("It begins anew with each change.");
+      draw_curve(context, chosen.name);
+    }
     if (chosen.list == "particles")
       note("It begins anew where particles are put or tied in another way.");
     draw_part_form(context, chosen.name, *part);

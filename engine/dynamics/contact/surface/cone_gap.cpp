@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Where both sides touch the planes across a normal.
+/// The meeting with normal n: the point on A lies below that on B along n.
 template <class Number>
 ElementMeeting<Number> with_normal(const Triple<Number>& n, const Number& gap,
                                    const Triple<Number>& on_b) {
@@ -36,7 +36,7 @@ ElementMeeting<Number> cone_point(const MovingElement<Number>& cone,
                      point.origin - n * point.radius);
 }
 
-/// Two cones, or a cone and a line, which is one of taper 0.
+/// Two cones, or a cone and a line, which is a cone of taper 0.
 template <class Number>
 ElementMeeting<Number> cone_line(const MovingElement<Number>& a, const MovingElement<Number>& b,
                                  const Vec3& towards_b) {
@@ -57,15 +57,15 @@ ElementMeeting<Number> cone_line(const MovingElement<Number>& a, const MovingEle
   const Triple<Number> d = b.origin - a.origin;
   const Number radii(a.radius + b.radius);
   const Number gap = n.dot(d) - radii;
-  // The lines that touch run along u + taper_a n and w - taper_b n, both across n.
+  // The touching generators run along u + taper_a n and w - taper_b n, both perpendicular to n.
   const Triple<Number> along_a = u + n * a.taper, along_b = w - n * b.taper;
   const Triple<Number> between = n * (gap + radii) - d;
   const Number s = between.cross(along_a).dot(n) / along_b.cross(along_a).dot(n);
   return with_normal(n, gap, b.origin - n * b.radius + along_b * s);
 }
 
-/// The normals of a cone, by the angle about its axis, against the furthest points of the other
-/// side.
+/// Separation of a cone and the other side along the normals of the cone, as a function of the
+/// angle about its axis.
 template <class Number>
 class ConeSeparation {
  public:
@@ -76,7 +76,7 @@ class ConeSeparation {
         origin_(value(cone.origin)),
         out_(std::sqrt((1 - cone.taper) * (1 + cone.taper))) {}
 
-  /// Climbs to the greatest separation near n; false where there is none.
+  /// Climbs to the greatest separation near n; false where there is no maximum.
   bool climb(const Vec3& n) {
     e_ = n - u_.dot(n) * u_;
     if (!(e_.norm() > tolerances::no_direction)) return false;
@@ -99,7 +99,7 @@ class ConeSeparation {
            separation(next) < f - tolerances::separation_rounding * (other_.size + std::fabs(f));
            part *= 0.5)
         next = turned(part);
-      // Near the solution steps fall quadratically, until they are rounding.
+      // Near the solution the steps shrink quadratically, until they are rounding error.
       const double length = std::fabs(turn);
       const bool done = length <= tolerances::newton_converged ||
                         (length < tolerances::newton_quadratic && length > 0.5 * last);
@@ -133,10 +133,10 @@ class ConeSeparation {
 
   Vec3 tangent() const { return u_.cross(e_); }
   Vec3 normal(const Vec3& e) const { return out_ * e - cone_.taper * u_; }
-  /// From a point of the axis to the other side's furthest against n.
+  /// From the cone's origin to the other side's point furthest against n.
   Vec3 apart(const Vec3& n) const { return other_.furthest(Plain3::of(-n), 1.0).vec() - origin_; }
   double separation(const Vec3& e) const { return normal(e).dot(apart(normal(e))); }
-  /// -(second derivative) of the separation by the angle.
+  /// Minus the second derivative of the separation by the angle.
   double steepness() const {
     const Vec3 t = tangent(), n = normal(e_);
     return out_ * e_.dot(apart(n)) + out_ * out_ * t.dot(other_.bend(n) * t);
@@ -151,7 +151,7 @@ class ConeSeparation {
   SupportSide<Number> other_;
   Vec3 u_, origin_;
   double out_;
-  Vec3 e_ = Vec3::UnitX();  ///< unit, across the axis
+  Vec3 e_ = Vec3::UnitX();  ///< unit, perpendicular to the axis: n = out_ e_ - taper u_
 };
 
 template <class Number>

@@ -21,9 +21,10 @@ MovingElement<Number> moving(const SurfaceElement& e, const BodyMotion& m, const
   return out;
 }
 
-/// A point, line or circle at one of its points, which is at 0 of a parameter s.
+/// A point of a point, line or circle element, and its derivatives by a parameter s that is 0
+/// there.
 struct CurvePoint {
-  Vec3 at, along, bend;  ///< place, first and second derivative by s; the third is -spin * along
+  Vec3 at, along, bend;  ///< position, first and second derivative by s; the third is -spin * along
   double spin = 0;
 };
 
@@ -37,7 +38,7 @@ CurvePoint nearest_of(const MovingElement<Number>& e, const Vec3& p) {
   return {o + out, n.cross(out), -out, 1};
 }
 
-/// The same as it moves.
+/// The same curve as a Taylor series in time.
 template <class Number>
 struct MovingCurve {
   using Place = Triple<Number>;
@@ -52,8 +53,8 @@ struct MovingCurve {
   }
 };
 
-/// Of half the square of the distance of two curves by their parameters: the second derivatives,
-/// and where these have a saddle (far from the nearest points) those of the tangents alone.
+/// Second derivatives of half the squared distance of two curves by their parameters; where they
+/// are indefinite (far from the nearest points), the part of the tangents alone (Gauss-Newton).
 struct Curvature {
   double aa, ab, bb;
   bool regular = true;
@@ -69,7 +70,7 @@ struct Curvature {
     aa = pp > 0 ? pp : 1, bb = qq > 0 ? qq : 1;
     regular = aa * bb - ab * ab > least * aa * bb;
   }
-  /// The change of the parameters that takes a slope away.
+  /// The Newton step of the parameters for a gradient (fa, fb).
   template <class Number>
   std::pair<Number, Number> solve(const Number& fa, const Number& fb) const {
     const Number scale(1 / (aa * bb - ab * ab));
@@ -116,8 +117,8 @@ ElementMeeting<Number> between_points(const Triple<Number>& p, double rp, const 
   return g;
 }
 
-/// Of sharp curves: along what is normal to both, which knows no side by itself but stays when they
-/// pass through each other.
+/// Meeting of sharp curves, with the normal perpendicular to both tangents: its sign is open, but
+/// it stays defined when the curves pass through each other.
 template <class Number>
 ElementMeeting<Number> across_tangents(const Triple<Number>& p, const Triple<Number>& along_p,
                                        const Triple<Number>& q, const Triple<Number>& along_q,
@@ -134,15 +135,16 @@ ElementMeeting<Number> across_tangents(const Triple<Number>& p, const Triple<Num
   return g;
 }
 
-/// Points, lines and circles: the nearest points are where the square of the distance is
-/// stationary, a system of two equations solved by Newton's method; once more in Taylor arithmetic
-/// with the matrix of the solution, each pass makes one more derivative exact (Griewank & Walther
+/// Points, lines and circles: the nearest points are where the squared distance is stationary, a
+/// system of two equations solved by Newton's method, then repeated in Taylor arithmetic with the
+/// matrix at the solution, where each pass makes one more derivative exact (Griewank & Walther
 /// 2008, 15.2).
 template <class Number>
 ElementMeeting<Number> curve_curve(const MovingElement<Number>& a, const MovingElement<Number>& b,
                                    const Vec3& towards_b) {
   const bool a_first = a.kind != ElementKind::line;
-  // A rim's point of contact is the one furthest out along the normal; a point or a line follows.
+  // The search starts at the point of a rim that is furthest out along the normal, and at the point
+  // of the other element nearest to that.
   const auto start = [](const auto& e, const auto& other, const Vec3& out) {
     if (e.kind == ElementKind::circle && other.kind == ElementKind::point)
       return nearest_of(e, value(other.origin));
@@ -187,7 +189,7 @@ ElementMeeting<Number> curve_plane(const MovingElement<Number>& c,
   if (c.kind == ElementKind::ellipsoid) return ellipsoid_plane(c, plane);
   if (c.kind == ElementKind::point) return point_plane(c.origin, c.radius, plane);
   if (c.kind != ElementKind::circle) return ElementMeeting<Number>::irregular();
-  // The point of the rim furthest against the plane's normal.
+  // The point of the rim furthest against the plane's normal touches.
   const Triple<Number> in_plane = plane.direction - c.direction * c.direction.dot(plane.direction);
   if (!(value(in_plane).norm() > tolerances::no_direction))
     return ElementMeeting<Number>::irregular();
@@ -213,7 +215,7 @@ ElementMeeting<Number> gap_of(const MovingElement<Number>& a, const MovingElemen
   return curve_curve(a, b, towards_b);
 }
 
-/// About A's centre.
+/// All positions are relative to A's centre of mass.
 template <class Number>
 ElementMeeting<Number> meeting(const SurfaceElement& a, const BodyMotion& motion_a,
                                const SurfaceElement& b, const BodyMotion& motion_b,
@@ -254,7 +256,7 @@ ElementGap element_gap(const SurfaceElement& a, const BodyMotion& motion_a, cons
   if (!g.regular) return out;
   out.rate = g.gap.d;
   out.bias = g.gap.dd;
-  // u = v_B + omega_B x (c - x_B) - ..., where c travels.
+  // u = v_B + omega_B x (c - x_B) - v_A - ..., where the contact point c travels.
   const Vec3 travel = 0.5 * (first(g.on_a) + first(g.on_b));
   const Vec3 change =
       motion_b.omega.cross(travel - motion_b.v) - motion_a.omega.cross(travel - motion_a.v);

@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// An element in world axes about A's centre. Number is Jet for one on its way without
-/// acceleration, double for one as it is now.
+/// An element in world axes relative to A's centre of mass. Number is Jet for a Taylor series in
+/// time of a motion without acceleration, double for the present values only.
 template <class Number>
 struct MovingElement {
   using Place = Triple<Number>;
@@ -13,22 +13,23 @@ struct MovingElement {
   ElementKind kind;
   Place origin, direction;
   double radius;
-  Mat3 semi_axes;  ///< as columns, as they are now
+  Mat3 semi_axes;  ///< as columns, at the present time
   Vec3 omega;
   double taper = 0;
 
-  /// How far the surface is round about a point or line; a circle's radius is its size.
+  /// Radius of the ball or cylinder about a point or line; a circle is sharp, its radius is its
+  /// size.
   double rounding() const { return kind == ElementKind::circle ? 0 : radius; }
-  /// A vector of the body.
+  /// A vector fixed in the body.
   Place carried(const Vec3& r) const {
     const Vec3 d = omega.cross(r);
     return triple_of<Number>(r, d, omega.cross(d));
   }
-  /// A point of the body.
+  /// A point fixed in the body.
   Place material(const Vec3& p) const { return origin + carried(p - value(origin)); }
 };
 
-/// Gap, normal from A to B and the point on A and on B.
+/// Gap, normal from A to B, and the nearest point on A and on B.
 template <class Number>
 struct ElementMeeting {
   Number gap{};

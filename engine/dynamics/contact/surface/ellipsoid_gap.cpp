@@ -9,12 +9,13 @@
 namespace tumble {
 namespace {
 
-/// Directions near n0: n0 + s e1 + u e2, all carried with one of the bodies; along a line only s.
+/// Directions near n0: n0 + s e1 + u e2, where the vectors turn with one of the bodies;
+/// perpendicular to a line there is s only.
 struct Directions {
   Vec3 n0, e1, e2;
   bool across_line;
 
-  /// `line`: its direction, or none.
+  /// `line`: its direction, if a side is a line.
   Directions(const Vec3& n, const std::optional<Vec3>& line)
       : n0(n), across_line(line.has_value()) {
     if (line) {
@@ -26,7 +27,7 @@ struct Directions {
   }
 };
 
-/// -(second derivatives) of the separation by the two parameters, on the unit sphere.
+/// Minus the second derivatives of the separation by the two parameters, on the unit sphere.
 struct Steepness {
   double ss, su, uu;
 
@@ -35,7 +36,7 @@ struct Steepness {
     su = d.across_line ? 0 : d.e1.dot(bend * d.e2);
     uu = d.across_line ? 1 : d.e2.dot(bend * d.e2) + separation;
   }
-  /// A greatest separation, by a margin.
+  /// Whether the separation has a strict maximum here.
   bool regular(double size) const {
     const double trace = std::fabs(ss) + std::fabs(uu);
     return ss > 0 && uu > 0 && ss * uu - su * su > tolerances::singular * trace * trace &&
@@ -59,7 +60,7 @@ class Separation {
   }
 
   double of(const Vec3& n) const { return n.dot(apart_now(n)); }
-  /// Climbs to the greatest separation near n; false where there is none.
+  /// Climbs to the greatest separation near n; false where there is no maximum.
   bool climb(Vec3& n) const {
     if (along_) n -= along_->dot(n) * *along_;
     if (!(n.norm() > tolerances::no_direction)) return false;
@@ -83,7 +84,7 @@ class Separation {
            of(next) < f - tolerances::separation_rounding * (size_ + std::fabs(f));
            part *= 0.5)
         next = (n + part * step).normalized();
-      // Near the solution steps fall quadratically, until they are rounding.
+      // Near the solution the steps shrink quadratically, until they are rounding error.
       const double length = step.norm();
       const bool done = length <= tolerances::newton_converged ||
                         (length < tolerances::newton_quadratic && length > 0.5 * last);
@@ -106,7 +107,7 @@ class Separation {
       const Place m = direction();
       length = m.norm();
       const Place w = apart(m, length);
-      // w across m: along e1 and e2 less what m has of them.
+      // The gradient of the separation by s and u: the part of w perpendicular to m.
       const Number f = w.dot(m) / (length * length);
       const auto [ds, du] = steep.solve(w.dot(e1) - f * m.dot(e1), w.dot(e2) - f * m.dot(e2));
       s = s + ds, u = u + du;
@@ -116,7 +117,7 @@ class Separation {
     ElementMeeting<Number> g;
     g.normal = m;
     g.gap = apart(m, Number(1)).dot(m);
-    // A line's own point is wherever the other side is.
+    // A line extends through whichever of its points is nearest to the other side.
     g.on_a = a_.furthest(m, Number(1));
     g.on_b = b_.furthest(-m, Number(1));
     if (line_ == &a_.element) g.on_a = g.on_b - m * g.gap;
@@ -126,7 +127,7 @@ class Separation {
 
  private:
   using Place = Triple<Number>;
-  /// From A's furthest point along n to B's furthest against it: the gradient of f.
+  /// From A's furthest point along n to B's furthest against it: the gradient of the separation.
   template <class N>
   Triple<N> apart(const Triple<N>& n, const N& length) const {
     return b_.furthest(-n, length) - a_.furthest(n, length);

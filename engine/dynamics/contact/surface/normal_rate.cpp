@@ -15,7 +15,7 @@ Error no_normal(std::string message, std::string cure) {
   return {ErrorCode::numeric, std::move(message), "normal_rate", std::move(cure)};
 }
 
-/// What follows from normal, points and their rates for every kind of contact.
+/// Completes a contact of any kind, given its normal, points and their rates.
 void complete(NormalRate& r, const FrameMotion& a, const FrameMotion& b) {
   r.relative_velocity = b.velocity_at(r.point_b) - a.velocity_at(r.point_a);
   r.gap_rate = r.normal.dot(r.relative_velocity);
@@ -23,7 +23,7 @@ void complete(NormalRate& r, const FrameMotion& a, const FrameMotion& b) {
   r.gap_bias = r.normal_rate.dot(r.relative_velocity) + r.normal.dot(r.velocity_bias);
 }
 
-/// Seen with A and B exchanged.
+/// The same contact with A and B exchanged.
 Result<NormalRate> with_sides_exchanged(Result<NormalRate> found) {
   if (!found) return found;
   NormalRate& r = *found;
@@ -36,7 +36,7 @@ Result<NormalRate> with_sides_exchanged(Result<NormalRate> found) {
   return found;
 }
 
-/// The normal from centre p to centre q, whose rates are known, and what the radii make of it.
+/// The contact of two balls (or points) at p and q, whose centres move at known rates.
 Result<NormalRate> between(const Vec3& p, const Vec3& p_rate, double radius_p, const Vec3& q,
                            const Vec3& q_rate, double radius_q, const FrameMotion& a,
                            const FrameMotion& b) {

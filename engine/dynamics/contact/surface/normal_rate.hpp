@@ -17,9 +17,9 @@ struct FrameMotion {
 /// Particle, vertex, centre of a sphere, end of a capsule's axis.
 struct RoundPoint {
   Vec3 x_world = Vec3::Zero();
-  double radius = 0;  ///< [m]
+  double radius = 0;  ///< of the ball about it [m]
 };
-/// Edge or axis of a capsule: the line, of which the closest point must be used.
+/// Edge, or axis of a capsule: an infinite line, valid while its closest point lies on the edge.
 struct RoundLine {
   Vec3 x_world = Vec3::Zero();     ///< any point of it
   Vec3 direction = Vec3::UnitX();  ///< of any length > 0
@@ -63,8 +63,8 @@ struct NormalRate {
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< w_A, w_B
   Vec3 point_rate_a = Vec3::Zero(), point_rate_b = Vec3::Zero();  ///< w_A', w_B' [m/s]
   Vec3 relative_velocity = Vec3::Zero();                          ///< u_B - u_A [m/s]
-  /// The rate of u_B - u_A at the travelling points without accelerations; its tangential part is
-  /// what friction at the onset of sliding has to reckon with [m/s2].
+  /// Rate of change of u_B - u_A at the travelling points without accelerations; its tangential
+  /// part enters the conditions of friction where sliding begins [m/s2].
   Vec3 velocity_bias = Vec3::Zero();
 };
 
@@ -81,8 +81,8 @@ Result<NormalRate> normal_rate(const FrameMotion& a, const RoundPoint& on_a, con
                                const RoundLine& on_b);
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, const FrameMotion& b,
                                const RoundPoint& on_b);
-/// Edge-edge, capsule-capsule. `towards_b` says on which side B is (n.towards_b > 0): lines that
-/// cross do not know. Error where the lines are parallel.
+/// Edge-edge, capsule-capsule. `towards_b` says on which side B is (n.towards_b > 0), which the
+/// directions of two crossing lines leave open. Error where the lines are parallel.
 Result<NormalRate> normal_rate(const FrameMotion& a, const RoundLine& on_a, const FrameMotion& b,
                                const RoundLine& on_b, const Vec3& towards_b);
 /// Two smooth surfaces at their closest points, where the unit normal from A to B is `normal`

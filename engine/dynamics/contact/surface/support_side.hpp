@@ -9,8 +9,8 @@
 
 namespace tumble {
 
-/// One side of a pair as the furthest points along directions know it: the semi-axes of an
-/// ellipsoid, those of a circle's disc, or none, and a rounding.
+/// Support function of one side of a pair: an ellipsoid by its semi-axes, the disc of a circle by
+/// two radii at right angles, anything else by its origin alone; each with a rounding.
 template <class Number>
 struct SupportSide {
   using Place = Triple<Number>;
@@ -29,8 +29,8 @@ struct SupportSide {
     }
   }
 
-  /// The point furthest along n, whose length is `length`, as it moves or, with plain numbers, as
-  /// it is.
+  /// The point furthest along n, whose length is `length`; as a Taylor series in time, or with
+  /// plain numbers at the present time.
   template <class N>
   Triple<N> furthest(const Triple<N>& n, const N& length) const {
     using std::sqrt;
@@ -54,7 +54,7 @@ struct SupportSide {
     for (int k = 0; k < count; ++k) sum += square(value(axes[size_t(k)]).dot(n));
     return std::sqrt(sum);
   }
-  /// Second derivatives of the height at a unit n.
+  /// Second derivatives of the support height at a unit n.
   Mat3 bend(const Vec3& n) const {
     Mat3 out = element.rounding() * (Mat3::Identity() - n * n.transpose());
     if (count == 0) return out;

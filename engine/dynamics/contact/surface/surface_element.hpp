@@ -4,14 +4,15 @@
 
 namespace tumble {
 
-/// Shape::element_at() of a shape of a body, all in the body's frame (origin at the centre of mass,
-/// body axes).
+/// Shape::element_at() of a shape of a body; point, direction and result in the body's frame
+/// (origin at the centre of mass, body axes).
 SurfaceElement element_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
-/// Likewise Shape::border_at().
+/// Shape::border_at(), likewise.
 SurfaceElement border_at(const BodyShape& shape, const Vec3& point, const Vec3& outward);
 
-/// Whether an element is a piece of the shape itself, not a material point somewhere on it.
+/// Whether an element is a feature of the shape (all but points that are no corner or centre of
+/// it), not just a material point of its surface.
 bool is_feature(const BodyShape& shape, const SurfaceElement& element);
 
 }  // namespace tumble

@@ -5,7 +5,7 @@
 namespace tumble {
 
 Vec3 follow_normal_rate(const Vec3& n, const Vec3& n_rate, const Vec3& tangent) {
-  // The shortest turn has angular velocity n x n'.
+  // The rotation without spin about n has angular velocity n x n'.
   return n.cross(n_rate).cross(tangent);
 }
 

@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-/// The nearest point of the cone |lateral| <= friction * axial, and the derivative of that map.
+/// Projection on the cone |lateral| <= friction * axial, and its derivative.
 Vec3 project_on_cone(const Vec3& x, double friction, Mat3& slope) {
   lcp::SolutionCell cone;
   cone.kind = friction > 0 ? lcp::SolutionCell::disc : lcp::SolutionCell::ray;
@@ -27,7 +27,8 @@ Vec3 project_on_cone(const Vec3& x, double friction, Mat3& slope) {
   return {point[0], point[1], point[2]};
 }
 
-/// Velocities u + A y as near to the dual cones as can be, in units in which points answer alike.
+/// Finds the velocities u + A y nearest to the dual cones, scaled so that points have equal
+/// mobility.
 class NearestApproach {
  public:
   NearestApproach(const ImpactSystem& system, bool friction)
@@ -44,12 +45,12 @@ class NearestApproach {
     start_ = u_;
   }
 
-  /// The impulses of the proof, if it is one, in the units of the system; else none.
+  /// The impulses of the proof in the units of the system; empty if there is no proof.
   Eigen::VectorXd proof();
 
  private:
   double friction(int i) const { return friction_ ? system_.point(i).friction : 0; }
-  /// What is missing to the dual cones at u: half its square, and itself.
+  /// The distance vector z of u to the dual cones; returns half its square.
   double missing(const Eigen::VectorXd& u, Eigen::VectorXd& z) const {
     Mat3 slope;
     z.resize(size_);
@@ -67,7 +68,7 @@ class NearestApproach {
   Eigen::VectorXd scale_, start_, u_, z_;
 };
 
-/// A step of Newton's method; false when none is better.
+/// One damped step of Newton's method; false if it gives no improvement.
 bool NearestApproach::improve() {
   const double before = missing(u_, z_);
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size_, size_);
@@ -102,9 +103,9 @@ Eigen::VectorXd NearestApproach::proof() {
   return scale_.cwiseProduct(z_);
 }
 
-/// Whether anything moves that no impulse changes: kinematic bodies, belts, motors of any strength.
-/// Impulses z that cancel have J^T z = 0 on all else, so that they do no work, z J v = 0, and are
-/// no proof.
+/// Whether there is motion that no impulse changes: kinematic bodies, belts, motors of unlimited
+/// force. Otherwise impulses z that cancel on all bodies, J^T z = 0, do no work, z^T J v = 0, and
+/// prove nothing.
 bool moves_by_itself(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
                      const Articulation& joints) {
   const auto kinematic = [](const DofBlock& b) {
@@ -121,7 +122,7 @@ bool moves_by_itself(std::span<const DofBlock> blocks, std::span<const ImpactPoi
 std::optional<Crush> find_crush(std::span<const DofBlock> blocks,
                                 std::span<const ImpactPoint> points, const Articulation& joints) {
   if (points.empty() || !moves_by_itself(blocks, points, joints)) return {};
-  // What a factor of the matrix takes.
+  // The work of factorising the matrix.
   const auto n = uint64_t(3 * points.size());
   if (!may_begin_work(n * n * n / 3)) return {};
   const ImpactSystem system(blocks, points, joints);

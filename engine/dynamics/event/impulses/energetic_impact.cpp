@@ -15,7 +15,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 using Slip = Vec2;
 
-/// How far the process has come: the impulse, and the work of its normal part.
+/// Progress of the process: the impulse so far, and the work of its normal part.
 struct ImpactWay {
   Vec3 p = Vec3::Zero();
   double work = 0;
@@ -23,7 +23,8 @@ struct ImpactWay {
   ImpactWay plus(double h, const ImpactWay& d) const { return {p + h * d.p, work + h * d.work}; }
 };
 
-/// Unit direction k of `parts` around the origin, by a square: no angles needed.
+/// Unit direction at parameter t in [0, 4), which runs around a square about the origin: no angles
+/// needed.
 Slip direction_around(double t) {
   const double side = std::floor(t), f = 2 * (t - side) - 1;
   Slip s;
@@ -72,7 +73,7 @@ class RouthProcess {
     out_.impulse = now_.p;
     out_.velocity = velocity(now_);
     out_.compression_work = lowest_;
-    // The work of an impulse is p.(u_before + u_after)/2 whatever the way.
+    // The work of an impulse is p.(u_before + u_after)/2, however it grew.
     out_.friction_work = now_.p.dot(u0_) + 0.5 * now_.p.dot(K_ * now_.p) - now_.work;
     return out_;
   }
@@ -83,14 +84,15 @@ class RouthProcess {
   Vec3 sliding_impulse(const Slip& s) const { return {1, -mu_ * s.x(), -mu_ * s.y()}; }
   double target() const { return lowest_ * (1 - kept_); }
 
-  /// Friction can press in again what was on its way out.
+  /// Friction can start a new compression during expansion.
   void notice_recompression() {
     if (!compressing_ && velocity(now_).x() < -tolerances::recompression_rounding * scale_)
       compressing_ = true;
   }
 
-  /// On along `direction` per normal impulse, until the next turn of events or `most`; true when
-  /// that is what ended it, or nothing does (which a positive semi-definite mobility excludes).
+  /// Lets the impulse grow along `direction` (per unit of normal impulse) up to the next change of
+  /// phase, but at most to a normal impulse of `most`. True if `most` was reached before that, or
+  /// if there is neither (which a positive semi-definite mobility excludes).
   bool go_straight(const Vec3& direction, double most) {
     notice_recompression();
     const double u = velocity(now_).x(), a = K_.row(0).dot(direction);
@@ -109,7 +111,7 @@ class RouthProcess {
     return !done_ && most <= length;
   }
 
-  /// Greatest compression, or the end.
+  /// Ends the phase: greatest compression is reached, or the collision is over.
   void take_turn() {
     done_ = !compressing_;
     if (done_) return;
@@ -118,7 +120,7 @@ class RouthProcess {
     done_ = !(now_.work < target());
   }
 
-  /// Without slip: it stays so, or grows along one ray.
+  /// Chooses how to continue without slip: it stays zero, or grows along one direction.
   void choose_way_on() {
     way_on_ = Vec3::UnitX();
     out_.stuck = true;
@@ -129,7 +131,8 @@ class RouthProcess {
       return Slip((c * x - b * y) / det, (a * y - b * x) / det);
     };
     const Slip left = slip_of(now_), hold = solve(-K_(1, 0), -K_(2, 0));
-    const Slip too_much = solve(left.x(), left.y());  // what rounding left of slip
+    // impulse that removes the rest of slip that rounding left
+    const Slip too_much = solve(left.x(), left.y());
     now_.p -= Vec3(0, too_much.x(), too_much.y());
     out_.stuck = hold.norm() <= mu_;
     way_on_ = out_.stuck ? Vec3(1, hold.x(), hold.y()) : sliding_impulse(growing_ray());
@@ -137,7 +140,7 @@ class RouthProcess {
 
   Slip slip_rate(const Slip& s) const { return (K_ * sliding_impulse(s)).tail<2>(); }
 
-  /// The unit slip whose rate is along itself and grows.
+  /// The unit direction of slip whose rate of change is parallel to itself and grows fastest.
   Slip growing_ray() const {
     constexpr int parts = tolerances::slip_directions;
     const auto turning = [&](double t) {
@@ -161,7 +164,7 @@ class RouthProcess {
     return best;
   }
 
-  /// A piece of the way with slip; true when slip has come to rest.
+  /// Continues with slip; true when slip has ended.
   bool slide() {
     const Slip slip = slip_of(now_);
     const double speed = slip.norm();
@@ -170,19 +173,20 @@ class RouthProcess {
     if (std::fabs(across) <= tolerances::straight_slip * (K_ * sliding_impulse(s)).norm())
       return go_straight(sliding_impulse(s), along < 0 ? speed / -along : endless);
     curve();
-    // Rounding can keep slip alive: the longer it takes, the sooner it counts as none.
+    // Rounding can keep slip alive: the longer the process takes, the larger a slip counts as none.
     return !done_ &&
            slip_of(now_).norm() <= tolerances::no_slip_of_first * scale_ *
                                        (1 + tolerances::more_with_each_piece * out_.steps);
   }
 
-  /// Negative before the next event, which is where it comes to zero.
+  /// Negative before the next change of phase, zero at it.
   double event(const ImpactWay& w) const {
     return compressing_ ? velocity(w).x() : w.work - target();
   }
 
-  /// A step of Routh's equations where slip turns. The variable is the normal impulse over the slip
-  /// speed, in which they are smooth up to the end of slip: dp = (|s|, -mu s).
+  /// A step of Routh's equations where slip changes its direction. The independent variable is the
+  /// normal impulse divided by the slip speed, in which the equations are smooth up to the end of
+  /// slip: dp = (|s|, -mu s).
   void curve() {
     notice_recompression();
     ImpactWay next;
@@ -195,7 +199,7 @@ class RouthProcess {
         step_ *= tolerances::longer_piece;
       return;
     }
-    // Regula falsi with halving (Illinois) for the event inside the step.
+    // Regula falsi with the Illinois modification for the change of phase inside the step.
     double lo = 0, hi = step_, f_lo = event(now_), f_hi = event(next);
     for (int i = 0; i < tolerances::most_piece_root_steps &&
                     hi - lo > tolerances::piece_root * step_ && f_hi != 0;
@@ -220,8 +224,8 @@ class RouthProcess {
     const double speed = u.tail<2>().norm();
     return {{speed, -mu_ * u.y(), -mu_ * u.z()}, u.x() * speed};
   }
-  /// Gragg's modified midpoint rule with Richardson's extrapolation (Hairer, Norsett & Wanner 1993,
-  /// II.9) over h, order 12. Gives the error in velocity, of the initial one.
+  /// Gragg's modified midpoint rule with Richardson extrapolation (Hairer, Norsett & Wanner 1993,
+  /// II.9) over h, order 12. Returns the error of the velocity relative to the initial one.
   double extrapolate(double h, ImpactWay& end) const {
     constexpr size_t rows = 6;
     std::array<ImpactWay, rows> row;

@@ -3,11 +3,12 @@
 
 namespace tumble {
 
-/// One frictional collision in one point, in a frame whose first axis is the contact normal (from A
-/// to B) and whose other two span the tangent plane.
+/// A frictional collision at one point, in a frame whose first axis is the contact normal (from A
+/// to B) and whose other two axes span the tangent plane.
 struct PointImpact {
-  /// Change of B's velocity relative to A's, at the point, by a unit impulse on B (and its opposite
-  /// on A): symmetric, positive semi-definite, its first diagonal entry positive [1/kg].
+  /// Inverse of the effective mass: change of B's velocity relative to A's at the point, per
+  /// impulse on B (and its opposite on A). Symmetric, positive semi-definite, first diagonal entry
+  /// positive [1/kg].
   Mat3 mobility = Mat3::Identity();
   Vec3 velocity = Vec3::Zero();  ///< of B relative to A at the point, before [m/s]
   double friction = 0;           ///< Coulomb coefficient, >= 0 [-]
@@ -24,22 +25,24 @@ struct PointImpactResult {
   PointImpactStatus status = PointImpactStatus::solved;
   Vec3 impulse = Vec3::Zero();   ///< on B [N s]
   Vec3 velocity = Vec3::Zero();  ///< relative, after [m/s]
-  double compression_work = 0;   ///< of the normal impulse until the greatest compression, <= 0 [J]
-  double friction_work = 0;      ///< of the tangential impulse, <= 0 [J]
-  bool stuck = false;            ///< slip came to rest and stayed so
-  bool reversed = false;         ///< slip came to rest and began anew in another direction
-  int steps = 0;                 ///< pieces of the way through the impulse
+  /// Work of the normal impulse until the greatest compression, <= 0 [J]
+  double compression_work = 0;
+  double friction_work = 0;  ///< work of the tangential impulse, <= 0 [J]
+  bool stuck = false;        ///< slip ended and did not begin again
+  bool reversed = false;     ///< slip ended and began again in another direction
+  int steps = 0;             ///< pieces into which the process was divided
 };
 
 /// The collision by Routh's process with Stronge's energetic coefficient of restitution (Routh
 /// 1905, art. 315; Stronge, "Rigid body collisions with friction", 1990; Coutinho 2013 §4.11.1).
 ///
-/// The normal impulse grows from zero, and friction with it: against the slip while there is slip,
-/// which may turn on its way (Keller 1986); what keeps it at zero once it got there, if the cone
-/// holds that, else along the one direction in which slip grows straight (Batlle 1996). Compression
-/// ends where the normal velocity is zero; the collision ends when the normal impulse has given
-/// back the square of the restitution of the work that compression took. Energy never grows, for
-/// any mobility. Where slip turns, the way is integrated to about 1e-12 of the velocity.
+/// The normal impulse grows from zero, and friction with it. While there is slip, friction opposes
+/// it; its direction may change on the way (Keller 1986). Once slip is zero, friction holds it
+/// there if that lies in the cone; otherwise slip grows along the one direction in which it stays
+/// straight (Batlle 1996). Compression ends where the normal velocity is zero; the collision ends
+/// when the normal impulse has returned the square of the restitution times the work of
+/// compression. Energy never grows, for any mobility. Where the direction of slip changes, the
+/// process is integrated to about 1e-12 of the velocity.
 PointImpactResult energetic_impact(const PointImpact& impact);
 
 }  // namespace tumble

@@ -40,7 +40,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
     tangent_frame(p.normal, frame[1], frame[2]);
     for (size_t k = 0; k < frame.size(); ++k) {
       rows_.push_back(point_row(p.a, p.arm_a, p.b, p.arm_b, frame[k]));
-      // A belt carries along its surface; along its normal it stands.
+      // A belt moves along its surface; its velocity has no normal component.
       const double belt = k == 0 ? 0 : frame[k].dot(p.surface_velocity);
       u0_[Eigen::Index(rows_.size()) - 1] = row_velocity(rows_.back(), blocks) - belt;
     }
@@ -51,7 +51,7 @@ ImpactSystem::ImpactSystem(std::span<const DofBlock> blocks, std::span<const Imp
   for (Eigen::Index i = 0; i < n; ++i) first_speed_ = std::max(first_speed_, std::fabs(u_[i]));
 }
 
-/// A row and two that nothing can move, in the place of laterals.
+/// Appends the row of a limit, with two empty rows in place of tangents.
 void ImpactSystem::add_limit(const Row& along) {
   u0_[Eigen::Index(rows_.size())] = row_velocity(along, blocks_);
   for (const Eigen::Index lateral : {1, 2}) u0_[Eigen::Index(rows_.size()) + lateral] = 0;
@@ -81,13 +81,13 @@ void ImpactSystem::add(const Eigen::VectorXd& impulse) {
   A_.add_product(impulse, u_);
 }
 
-/// A complementarity problem: its unknowns' numbers in the system, and how it is solved.
+/// A complementarity problem: the indices of its unknowns in the system, and how it is solved.
 struct ImpactSystem::Unknowns {
   std::vector<Eigen::Index> rows;
   lcp::ConeTask task;
 };
 
-/// The problem of `active`, all but its matrix.
+/// Sets up the problem of the points in `active`, except for its matrix.
 void ImpactSystem::set_conditions(std::span<const int> active, const Eigen::VectorXd& target,
                                   Unknowns& out) const {
   lcp::LcpProblem& problem = out.task.problem;
@@ -111,7 +111,8 @@ void ImpactSystem::set_conditions(std::span<const int> active, const Eigen::Vect
   }
 }
 
-/// Equations of joints behind the others: velocities are on the joints, and stay there.
+/// Appends the rows of joints as equations: the velocities satisfy the joints, and must continue
+/// to.
 void ImpactSystem::add_joint_rows(std::vector<Row>& rows, lcp::LcpProblem& problem) const {
   const auto n = Eigen::Index(rows.size()), m = Eigen::Index(joints_->size());
   for (const JointRow& r : joints_->rows()) rows.push_back(r.row);
@@ -125,7 +126,7 @@ void ImpactSystem::add_joint_rows(std::vector<Row>& rows, lcp::LcpProblem& probl
   extend(problem.upper, unbounded);
 }
 
-/// The matrix, and where many unknowns would make it dear the rows in blocks.
+/// Sets the matrix, and for many unknowns, where it would be expensive, the rows in blocks.
 void ImpactSystem::set_matrices(Unknowns& unknowns) const {
   lcp::ConeTask& task = unknowns.task;
   task.matrix = [this, &unknowns] { return A_.dense(unknowns.rows); };
@@ -178,7 +179,7 @@ bool ImpactSystem::rebound(std::span<const int> active, Eigen::VectorXd& impulse
 
 double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::VectorXd& more,
                                     ImpactReport& report) const {
-  // The work along the way is convex, a s^2 + b s + c, and begins at no more than zero.
+  // The work along the way is a convex quadratic, a s^2 + b s + c, with c <= 0.
   Eigen::VectorXd response = Eigen::VectorXd::Zero(u_.size()), start = u_;
   A_.add_product(more, response);
   A_.add_product(first, start);
@@ -192,7 +193,7 @@ double ImpactSystem::harmless_share(const Eigen::VectorXd& first, const Eigen::V
   else if (a > 0)
     share = (root - b) / (2 * a);
   share = std::clamp(share, 0.0, 1.0);
-  // What rounding made is not worth a word.
+  // Rounding error is not reported.
   if (share < 1 - tolerances::scale_rounding)
     report.restitution_scale = std::min(report.restitution_scale, share);
   return share;
@@ -210,7 +211,7 @@ void ImpactSystem::add_friction(Eigen::VectorXd& impulse, ImpactReport& report) 
       if (!(radius > 0)) continue;
       const Eigen::Index j = 3 * i + 1;
       const Mat3& own = mobility(i);
-      const double stiffest = own(1, 1) + own(2, 2);  // at least the greater eigenvalue
+      const double stiffest = own(1, 1) + own(2, 2);  // trace: no less than the greater eigenvalue
       if (!(stiffest > 0)) continue;
       const Vec2 old(impulse[j], impulse[j + 1]);
       Vec2 t = old - Vec2(u[j], u[j + 1]) / stiffest;

@@ -11,11 +11,11 @@
 
 namespace tumble {
 
-/// A collision in the space of its impulses: three unknowns per point (normal, two tangents), the
+/// A collision in terms of its impulses z: three unknowns per point (normal and two tangents), with
 /// relative velocities u = u0 + A z. Shared by all laws.
 class ImpactSystem {
  public:
-  /// The blocks, the points and the joints must live as long, the masses stay.
+  /// The blocks, points and joints must outlive this; masses must not change.
   ImpactSystem(std::span<const DofBlock> blocks, std::span<const ImpactPoint> points,
                const Articulation& joints);
 
@@ -24,41 +24,41 @@ class ImpactSystem {
   bool finite() const;
   double normal_velocity(int i) const { return u_[3 * i]; }
   Vec3 velocity(int i) const { return small_vector(u_.segment<3>(3 * i)); }
-  /// How a point answers to its own impulse; and all to all.
+  /// The mobility of a point: its velocity change by an impulse on itself; and the whole matrix.
   const Mat3& mobility(int i) const { return A_.own(i); }
   const PointMobility& mobility() const { return A_; }
-  /// The fastest relative velocity at the beginning [m/s].
+  /// Greatest relative velocity component at the beginning [m/s].
   double first_speed() const { return first_speed_; }
-  /// Slower approach than this is none.
+  /// Approach slower than this counts as none [m/s].
   double rest_speed() const { return tolerances::rest_of_fastest * first_speed_; }
   bool approaching(int i) const { return normal_velocity(i) < -rest_speed(); }
 
-  /// Impulse at one point, in its frame.
+  /// Applies an impulse at one point, in the point's frame.
   void add(int i, const Vec3& impulse);
   void add(const Eigen::VectorXd& impulse);
 
-  /// Impulses of the points of `active` (others zero) that leave u_n >= target_i where z_n = 0 and
-  /// u_n = target_i where z_n > 0, with friction in Coulomb's cone against the velocity that is
-  /// left. False, with the report's status set, when there is no believable answer.
+  /// Finds impulses of the points in `active` (all others zero) with u_n >= target_i where z_n = 0
+  /// and u_n = target_i where z_n > 0, and friction in Coulomb's cone opposing the slip afterwards.
+  /// False, with the report's status set, if there is no acceptable solution.
   bool solve(std::span<const int> active, const Eigen::VectorXd& target, Eigen::VectorXd& impulse,
              ImpactReport& report) const;
-  /// solve() with every approaching point of `active` leaving at restitution times its approach,
-  /// scaled towards no restitution as far as energy would grow.
+  /// solve() with every approaching point of `active` rebounding at restitution times its approach;
+  /// restitution is scaled down as far as energy would grow otherwise.
   bool rebound(std::span<const int> active, Eigen::VectorXd& impulse, ImpactReport& report) const;
 
-  /// Friction for given normal impulses: the tangential impulses within the discs of radius
-  /// friction times `impulse`'s normal parts that leave the least kinetic energy, written into
-  /// `impulse`. By projected Gauss-Seidel steps to 1e-13.
+  /// Friction for given normal impulses: tangential impulses, within discs of radius friction times
+  /// the normal part of `impulse`, that minimise the kinetic energy; written into `impulse`.
+  /// Projected Gauss-Seidel sweeps to 1e-13.
   void add_friction(Eigen::VectorXd& impulse, ImpactReport& report) const;
-  /// The largest share in [0, 1] of `more` after `first` with which the two take energy together;
-  /// notes it in the report.
+  /// The largest share s in [0, 1] for which `first` + s `more` does not increase the energy; a
+  /// share below 1 is noted in the report.
   double harmless_share(const Eigen::VectorXd& first, const Eigen::VectorXd& more,
                         ImpactReport& report) const;
 
   /// Work of a further impulse [J].
   double work(const Eigen::VectorXd& impulse) const;
 
-  /// Writes the impulses so far to the blocks, and what the report says by point.
+  /// Applies the sum of all impulses to the blocks, and fills in the report by point.
   void finish(std::span<DofBlock> blocks, ImpactReport& report) const;
 
  private:

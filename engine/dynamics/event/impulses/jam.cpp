@@ -12,7 +12,8 @@
 namespace tumble {
 namespace {
 
-/// Whether friction against the slip presses more than its normal force parts.
+/// Whether the friction of a normal force accelerates the gap inwards more than the force itself
+/// outwards.
 bool presses(const Mat3& mobility, const Vec3& velocity, double friction) {
   const Vec2 slip = velocity.tail<2>();
   const double speed = slip.norm();
@@ -62,7 +63,7 @@ int resolve_common_jam(std::span<DofBlock> blocks, std::span<const ImpactPoint> 
   }
   for (const Vec3& a : accelerations) greatest = std::max(greatest, a.norm());
   if (!(fastest > tolerances::jam_slip && greatest > 0)) return 0;
-  // What they do of themselves in a time that is too short to matter.
+  // Changes of velocity in a negligible time without forces at the points.
   const double soon = tolerances::jam_approach * fastest / greatest;
   std::vector<ImpactPoint> then(points.begin(), points.end());
   for (size_t i = 0; i < then.size(); ++i) {

@@ -37,7 +37,7 @@ double greatest_approach(const ImpactSystem& system) {
   return most;
 }
 
-/// Nothing approaches any more, without restitution.
+/// Stops all points that approach, without restitution.
 bool stop_all(ImpactSystem& system, ImpactReport& report) {
   Eigen::VectorXd impulse;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.points());
@@ -46,7 +46,7 @@ bool stop_all(ImpactSystem& system, ImpactReport& report) {
   return true;
 }
 
-/// Runs `law(system, report)` between the checks that all laws share.
+/// Runs `law(system, report)` with the checks that all laws share.
 template <class Law>
 ImpactReport resolve(std::span<DofBlock> blocks, std::span<const ImpactPoint> points,
                      const Articulation& joints, const Law& law) {

@@ -14,7 +14,7 @@ bool answers(uint32_t block, std::span<const DofBlock> blocks) {
          (blocks[block].inverse_mass > 0 || !blocks[block].inverse_inertia.isZero(0));
 }
 
-/// By block: whether joints hold something that moves there.
+/// By block: whether it moves and is held by joints.
 std::vector<char> jointed_blocks(std::span<const DofBlock> blocks, const Articulation& joints) {
   std::vector<char> out(blocks.size(), 0);
   for (size_t row = 0; row < joints.size(); ++row)
@@ -26,7 +26,7 @@ std::vector<char> jointed_blocks(std::span<const DofBlock> blocks, const Articul
 
 PointMobility::PointMobility(std::span<const Row> rows, std::span<const DofBlock> blocks,
                              const Articulation& joints) {
-  // Jointed bodies count as one more block.
+  // All jointed bodies together count as one more block.
   const auto all_jointed = uint32_t(blocks.size());
   const std::vector<char> is_jointed = jointed_blocks(blocks, joints);
   std::vector<std::array<uint32_t, 2>> blocks_of(rows.size() / 3, {no_block, no_block});
@@ -65,8 +65,8 @@ void PointMobility::lay_out(std::span<const std::array<uint32_t, 2>> blocks_of,
   }
 }
 
-/// One half, and the other by symmetry: the entries of a column below its diagonal are those of
-/// later columns, in the order of these.
+/// Computes the entries above the diagonal; those below are their transposes. The entries of a
+/// column below its diagonal are filled in ascending order by the later columns.
 void PointMobility::fill(std::span<const Row> rows, std::span<const DofBlock> blocks) {
   std::vector<size_t> mirror;
   for (const size_t own : own_) mirror.push_back(own + 1);
@@ -90,7 +90,7 @@ void PointMobility::fill(std::span<const Row> rows, std::span<const DofBlock> bl
   }
 }
 
-/// Of the rows at jointed bodies, what their joints leave.
+/// Reduces the entries of points on jointed bodies by their joints.
 void PointMobility::reduce(std::span<const Row> rows, std::span<const uint32_t> jointed,
                            const Articulation& joints) {
   std::vector<Eigen::Index> which;

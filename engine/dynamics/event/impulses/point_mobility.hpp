@@ -11,23 +11,22 @@
 
 namespace tumble {
 
-/// How points answer to each other's impulses: the Delassus matrix of three rows for each point, of
-/// which the first names its bodies. Only the 3 x 3 blocks of two points that act on the same
-/// body are kept: memory and products grow with the points times those of one body. Points of
-/// jointed bodies, which pass everything on, all answer to each other.
+/// Delassus matrix of points with three rows each, of which the first names the bodies. Only the 3
+/// x 3 blocks of points that act on a common body are stored: memory and products grow with the
+/// number of points times the points per body. All points on jointed bodies count as coupled.
 class PointMobility {
  public:
   PointMobility() = default;
-  /// Entries are zero where a stop is requested.
+  /// Entries are zero if a stop was requested.
   PointMobility(std::span<const Row> rows, std::span<const DofBlock> blocks,
                 const Articulation& joints);
 
   int points() const { return int(first_.size()) - 1; }
-  /// How many points answer to one, itself among them.
+  /// How many points an impulse at one point moves, itself included.
   size_t degree(int point) const { return end(point) - begin(point); }
-  /// How many blocks are kept.
+  /// Number of stored blocks.
   size_t size() const { return entries_.size(); }
-  /// The block of a point by itself.
+  /// The diagonal block of a point.
   const Mat3& own(int point) const { return entries_[own_[size_t(point)]].block; }
   /// Calls f(row, block) for the blocks in the column of a point.
   template <class F>
@@ -37,9 +36,9 @@ class PointMobility {
   }
   /// y += A z, summed in the order of the points.
   void add_product(const Eigen::VectorXd& z, Eigen::VectorXd& y) const;
-  /// The same for an impulse at one point.
+  /// y += A z for an impulse at one point only.
   void add_product(int point, const Vec3& impulse, Eigen::VectorXd& y) const;
-  /// All of the matrix that is in these rows and columns, which ascend.
+  /// The submatrix of these rows and columns (ascending indices of unknowns).
   Eigen::MatrixXd dense(std::span<const Eigen::Index> rows) const;
 
  private:
@@ -56,9 +55,9 @@ class PointMobility {
   void reduce(std::span<const Row> rows, std::span<const uint32_t> jointed,
               const Articulation& joints);
 
-  std::vector<size_t> first_{0};  ///< by point: of its column
+  std::vector<size_t> first_{0};  ///< by point: index of its column's first entry
   std::vector<Entry> entries_;    ///< column by column, rows ascending
-  std::vector<size_t> own_;       ///< by point: its entry on the diagonal
+  std::vector<size_t> own_;       ///< by point: index of its diagonal entry
 };
 
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/forces/force_context.hpp"
 #include "engine/dynamics/forces/pair/pair_law.hpp"
+#include "engine/math/varying.hpp"
 
 #include <span>
 #include <string>

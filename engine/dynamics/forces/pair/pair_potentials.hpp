@@ -9,8 +9,8 @@ namespace tumble {
 struct LennardJonesDef {
   static constexpr std::string_view type_name = "lennard_jones";
   std::vector<ParticleSystemId> between;
-  double epsilon = 1;  ///< [J]
-  double sigma = 0.1;  ///< [m]
+  Varying epsilon = 1;  ///< [J]
+  double sigma = 0.1;   ///< [m]
   PairEnd end;
 
   PairLaw law() const;
@@ -33,8 +33,8 @@ struct LennardJonesDef {
 struct CoulombDef {
   static constexpr std::string_view type_name = "coulomb";
   std::vector<ParticleSystemId> between;
-  double strength = 8.9875517923e9;  ///< k = 1 / (4 pi eps0) [N m2/C2]; CODATA 2018
-  double softening = 0;              ///< s [m]
+  Varying strength = 8.9875517923e9;  ///< k = 1 / (4 pi eps0) [N m2/C2]; CODATA 2018
+  double softening = 0;               ///< s [m]
   PairEnd end;
 
   PairLaw law() const;
@@ -59,8 +59,8 @@ struct CoulombDef {
 struct MutualGravityDef {
   static constexpr std::string_view type_name = "mutual_gravity";
   std::vector<ParticleSystemId> between;
-  double strength = 6.6743e-11;  ///< G [N m2/kg2]; CODATA 2018
-  double softening = 0;          ///< s [m]
+  Varying strength = 6.6743e-11;  ///< G [N m2/kg2]; CODATA 2018
+  double softening = 0;           ///< s [m]
   PairEnd end;
 
   PairLaw law() const;
@@ -86,7 +86,7 @@ struct MutualGravityDef {
 struct MorseDef {
   static constexpr std::string_view type_name = "morse";
   std::vector<ParticleSystemId> between;
-  double depth = 1;       ///< D [J]
+  Varying depth = 1;      ///< D [J]
   double distance = 0.1;  ///< r0 [m]
   double steepness = 30;  ///< a [1/m]
   PairEnd end;

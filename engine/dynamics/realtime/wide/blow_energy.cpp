@@ -1,4 +1,4 @@
-// Blows give back no more energy than was taken, in each ordinary island for itself: what
+// Limits the energy of impacts to what was taken, in each ordinary island by itself, as
 // solve_island does for a precise one.
 #include "engine/dynamics/realtime/blows.hpp"
 #include "engine/dynamics/realtime/wide/lane_values.hpp"
@@ -39,7 +39,7 @@ float& WideIsland::row_impulse(const BlowBooks::Joint& of, size_t row, JointPass
                  : impulses(rows_.hinges[j.hinge], pass)[row - 3][of.lane];
 }
 
-/// Which points bounce in this tick, and which joints they shake.
+/// Lists the points that bounce in this tick, and the joints that they shake.
 void WideIsland::open_blow_books() {
   books_.points.clear();
   books_.joints.clear();
@@ -114,7 +114,7 @@ void WideIsland::remember_before_blow() {
     if (part.bounces) remember_relaxing(rest_of(part));
 }
 
-/// Leaves to each island the share of its blow that it bears.
+/// Reduces the impact of each island to the share that its energy allows.
 void WideIsland::bound_blows() {
   std::vector<BlowEnergy> energies(parts_.size());
   for (const BlowBooks::Point& p : books_.points) {
@@ -147,7 +147,7 @@ void WideIsland::bound_blows() {
   scale_blows();
 }
 
-/// By the shares.
+/// Applies the shares.
 void WideIsland::scale_blows() {
   const auto scaled = [](float now, float before, double share) {
     return before + float(share) * (now - before);

@@ -1,4 +1,4 @@
-// Blows, of bounces and of limits of joints, go through whole mechanisms, in each island for
+// Impacts, of bounces and of joint limits, spread through whole mechanisms, in each island by
 // itself.
 #include "engine/dynamics/realtime/blows.hpp"
 
@@ -10,7 +10,8 @@
 
 namespace tumble {
 
-/// Adds what the bundles changed in the last turn to the parts. Whether anything changed at all.
+/// Adds the changes of the last round in the bundles to the parts. Returns whether anything
+/// changed.
 bool WideIsland::read_blow_changes() {
   for (size_t i = 0; i < rows_.contacts.size(); ++i) {
     const WideContact& c = rows_.contacts[i];
@@ -23,7 +24,7 @@ bool WideIsland::read_blow_changes() {
   return std::ranges::any_of(parts_, [](const Part& part) { return part.change > 0; });
 }
 
-/// Where the last turn changed little the blow is over: these points bounce no more.
+/// In islands where the last round changed little the impact is over: their points bounce no more.
 void WideIsland::end_blows() {
   for (Part& part : parts_) part.struck = part.change >= tolerances::bounce_error;
   for (WideContact& c : rows_.contacts) {
@@ -37,7 +38,7 @@ void WideIsland::end_blows() {
   }
 }
 
-/// Joints of the islands whose `change` is above `least`.
+/// Marks the joints of islands whose `change` is above `least`.
 void WideIsland::mark_struck(WideRange joints, double least) {
   for (uint32_t i = joints.begin; i < joints.end; ++i) {
     WideJoint& j = rows_.joints[i];
@@ -50,8 +51,8 @@ void WideIsland::mark_struck(WideRange joints, double least) {
   }
 }
 
-/// f(impulse, that before the blow) of every row of the bundled joints of the islands that is()
-/// names.
+/// Calls f(impulse, the same before the impact) for all rows of the bundled joints of the islands
+/// with is(part).
 template <class Is, class F>
 void WideIsland::for_impulses_of(const Is& is, const F& f) {
   for (uint32_t i = 0; i < rows_.joints.size(); ++i) {
@@ -86,7 +87,7 @@ void WideIsland::remember(const Is& is) {
   }
 }
 
-/// After the relaxing pass.
+/// To be called after the relaxing pass.
 void WideIsland::end_substep(Crew& crew, double hs) {
   sum_all_joints(crew, hs, JointPass::relaxing);
   if (std::ranges::any_of(parts_, &Part::blown)) {
@@ -98,8 +99,8 @@ void WideIsland::end_substep(Crew& crew, double hs) {
   for (Part& part : parts_) part.remembered = part.blown = false;
 }
 
-/// Restitution and joints in turn, as in precise islands, for each island until its blow has gone
-/// through the mechanism.
+/// Alternates restitution and sweeps over joints, as in precise islands, in each island until its
+/// impact has spread through the mechanism.
 void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
   for (Part& part : parts_) part.struck = true;
   if (books_.open) remember_before_blow();
@@ -123,7 +124,7 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
   if (books_.open) bound_blows();
 }
 
-/// As in solve_joints: where a limit that bounces may be met, how fast joints would be without it.
+/// As in solve_joints: where a bouncing limit may be reached, the velocities of joints without it.
 void WideIsland::find_free_speeds(Crew& crew, double hs) {
   if (drives_.empty()) return;
   const auto near = [](const Part& part) { return part.change > 0; };
@@ -137,7 +138,8 @@ void WideIsland::find_free_speeds(Crew& crew, double hs) {
   });
 }
 
-/// As in solve_joints: what limits give back, which was felt once, goes through whole mechanisms.
+/// As in solve_joints: spreads the impacts of limits, after their first sweep, through whole
+/// mechanisms.
 void WideIsland::follow_limits(Crew& crew, double hs) {
   if (drives_.empty()) return;
   for (Part& part : parts_) part.blown = limit_bounces(rest_of(part));

@@ -1,8 +1,8 @@
-// Preparation of contacts and the motion of bodies, a bundle at a time; scalar twins:
+// Preparation of contacts and motion of bodies, a bundle at a time; the same in scalars:
 // prepare_rows.cpp, integrate_bodies.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/realtime/wide/body_kernels.cpp"
@@ -21,7 +21,7 @@ HWY_INLINE V tangent(const V& n) {
   return {all(1) + sign * n.x * n.x * a, sign * n.x * n.y * a, all(0) - sign * n.x};
 }
 
-/// u K v of both bodies at a point.
+/// Mobility u.K v of both bodies together at a point.
 struct Mobility {
   F mass;
   const Held& a;
@@ -43,7 +43,7 @@ HWY_INLINE void set_masses(WidePoint& p, size_t lane, const Mobility& k, M there
   store(k11 * one, p.m22, lane);
 }
 
-/// Impulses of the sub-step from the forces that were staged.
+/// Impulses of the sub-step from the staged forces.
 HWY_INLINE void set_impulses(WidePoint& p, size_t lane, F hs, const V& t1, const V& t2) {
   const V force{load(p.tangent1, lane), load(p.tangent2, lane), load(p.tangent1_sum, lane)};
   store(hs * load(p.normal, lane), p.normal, lane);
@@ -54,7 +54,7 @@ HWY_INLINE void set_impulses(WidePoint& p, size_t lane, F hs, const V& t1, const
   store(all(0), p.tangent2_sum, lane);
 }
 
-/// As bounce_speed in prepare_rows.cpp. Whether any lane bounces.
+/// As bounce_speed in prepare_rows.cpp. Returns whether any lane bounces.
 HWY_INLINE bool set_bounce(WidePoint& p, size_t lane, const V& n, const V& slip, F pull, F e,
                            const WideStep& step) {
   const F approach = all(0) - dot(n, slip);
@@ -65,13 +65,13 @@ HWY_INLINE bool set_bounce(WidePoint& p, size_t lane, const V& n, const V& slip,
   return !hn::AllFalse(Lanes(), acts);
 }
 
-/// As TurningRow::set_masses, and the impulses of the sub-step from the torques that were staged.
+/// As TurningRow::set_masses; and impulses of the sub-step from the staged torques.
 HWY_INLINE void prepare_turning(WideTurning& r, size_t lane, F hs, const Held& a, const Held& b,
                                 const V& n, const V& t1, const V& t2) {
   const auto k = [&](const V& u, const V& v)
                      HWY_ATTR { return dot(u, a.inertia * v) + dot(u, b.inertia * v); };
   const F k11 = k(t1, t1), k12 = k(t1, t2), k22 = k(t2, t2);
-  // What is not positive has no lane there, or no inertia: no mass comes out.
+  // Lanes without a contact or without inertia give nothing positive, and get zero mass.
   const F one = inverse(k11 * k22 - k12 * k12);
   store(k22 * one, r.m11, lane);
   store(all(0) - k12 * one, r.m12, lane);
@@ -124,8 +124,8 @@ void Prepare(WideRows& rows, WideRange range, const WideStep& step) {
   }
 }
 
-/// A rotation as a quaternion, and its product with a turn by omega h, by the series of sine and
-/// cosine: exact to single precision up to a radian.
+/// A rotation as a quaternion, and its product with a rotation by omega h by series of sine and
+/// cosine, which are exact in single precision up to a radian.
 struct Turn {
   F s;
   V u;
@@ -203,7 +203,7 @@ void Move(WideRows& rows, WideRange range, float hs) {
       const V u{q2.c1, q2.c2, q2.c3};
       const Turn before{scalar_part(u), u};
       V w{q0.c3, q1.c0, q1.c1};
-      // The gyroscopic term matters from some turning per sub-step on.
+      // Below a small angle per sub-step the gyroscopic term is negligible.
       const M differ = hn::Gt(load(m.gyroscopic, lane), all(0));
       const M turns =
           hn::And(differ, hn::Gt(dot(w, w) * (h * h), all(float(tolerances::gyroscopic_turn2))));
@@ -217,7 +217,7 @@ void Move(WideRows& rows, WideRange range, float hs) {
         }
         const Turn after = turned(before, mid, h);
         const V next = choose(turns, conjugated(after, inverse, L), w);
-        // no impulse, so it is not to come again
+        // This change is no impulse and must not be repeated by KickAgain.
         store(load(m.kicked_w, lane) + (next - w), m.kicked_w, lane);
         w = next;
       }

@@ -15,7 +15,7 @@ void Colouring::assign(std::span<const ColourEdge> edges, uint32_t nodes) {
     uint32_t taken = 0;
     if (e.a != ColourEdge::fixed) taken |= taken_[e.a];
     if (e.b != ColourEdge::fixed) taken |= taken_[e.b];
-    const auto colour = uint32_t(std::countr_one(taken));  // 32 where all are taken
+    const auto colour = uint32_t(std::countr_one(taken));  // 32 if all are taken
     colour_[i] = uint8_t(colour);
     ++begin_[colour + 1];
     if (colour == most) continue;

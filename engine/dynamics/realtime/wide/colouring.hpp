@@ -8,25 +8,26 @@
 
 namespace tumble {
 
-/// Two nodes that a constraint couples. `fixed` stands for an end that nothing moves: such ends
-/// never conflict.
+/// Two nodes that a constraint couples. `fixed` stands for an immovable body: edges do not conflict
+/// there.
 struct ColourEdge {
   static constexpr uint32_t fixed = ~uint32_t{0};
   uint32_t a = fixed, b = fixed;
 };
 
-/// Edges in colours: no two edges of a colour share a node, so that all of a colour can be solved
-/// at once and in any order. Greedy: each edge in turn takes the lowest colour that is free at both
-/// ends, which needs at most one colour less than twice the greatest number of edges at a node;
-/// edges beyond the last colour are left over. A pure function of its input. Memory is kept.
+/// Edge colouring: no two edges of a colour share a node, so that all edges of a colour can be
+/// solved at once and in any order. Greedy: each edge in turn takes the lowest colour that is free
+/// at both ends, which needs at most one colour less than twice the greatest number of edges at a
+/// node; edges for which no colour is left are set aside. Depends on its input only. Memory is
+/// reused.
 class Colouring {
  public:
-  static constexpr uint32_t most = 32;  ///< colours
+  static constexpr uint32_t most = 32;  ///< number of colours
 
   /// Edges whose ends are both fixed go to the first colour.
   void assign(std::span<const ColourEdge> edges, uint32_t nodes);
 
-  /// Colours that are in use; they are the lowest.
+  /// Number of colours in use, which are the lowest ones.
   uint32_t colours() const { return used_; }
   /// Indices of the edges of a colour, ascending.
   std::span<const uint32_t> of(uint32_t colour) const { return part(colour); }
@@ -37,9 +38,9 @@ class Colouring {
   std::span<const uint32_t> part(uint32_t k) const {
     return std::span(order_).subspan(begin_[k], begin_[k + 1] - begin_[k]);
   }
-  std::vector<uint32_t> taken_;  ///< by node: a bit for each colour that an edge of it has
-  std::vector<uint8_t> colour_;  ///< by edge; `most` where none was free
-  std::vector<uint32_t> order_;  ///< edges by colour
+  std::vector<uint32_t> taken_;  ///< by node: a bit for each colour of its edges
+  std::vector<uint8_t> colour_;  ///< by edge; `most` if none was free
+  std::vector<uint32_t> order_;  ///< edges sorted by colour
   std::array<uint32_t, most + 2> begin_{};
   uint32_t used_ = 0;
 };

@@ -1,7 +1,7 @@
-// Sweeps over contacts, a bundle at a time; scalar twin: solve_rows.cpp.
+// Sweeps over contacts, a bundle at a time; the same in scalars: solve_rows.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/realtime/wide/contact_kernels.cpp"
@@ -28,7 +28,7 @@ struct Pair {
   HWY_INLINE V slip(const V& ra, const V& rb) const {
     return b.v - a.v + cross(b.w, rb) - cross(a.w, ra);
   }
-  /// Impulse P on B and -P on A.
+  /// Applies an impulse P on B and -P on A.
   HWY_INLINE void push(const V& ra, const V& rb, const V& P) {
     a.v = a.v - mass_a * P;
     a.w = a.w - inertia_a * cross(ra, P);
@@ -45,7 +45,8 @@ struct Pair {
   }
 };
 
-/// Gap of any point of the contact now: its own, plus base + to_b.rb - to_a.ra.
+/// Change of the gap since the start of the tick at any point of the contact: base + to_b.rb -
+/// to_a.ra.
 struct GapChange {
   F base;
   V to_a, to_b;
@@ -58,7 +59,8 @@ HWY_INLINE GapChange gap_change(const Pair& p, const WideContact& c, size_t lane
   // n.(R r - r) = (R^-1 n - n).r
   GapChange g{dot(n, dx), turned_by(all(0) - scalar_part(ua), ua, n),
               turned_by(all(0) - scalar_part(ub), ub, n)};
-  // Round surfaces keep their distance while they turn: only the core inside carries anchors.
+  // The gap of round surfaces does not change as they turn: only the part of the arms inside the
+  // rounding turns.
   if (c.rounds)
     g.base = g.base + load(c.rounding_a, lane) * dot(n, g.to_a) +
              load(c.rounding_b, lane) * dot(n, g.to_b);
@@ -167,7 +169,7 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
       const V n = load(c.n, lane), t1 = load(c.t1, lane), t2 = cross(n, t1);
       const F mu = load(c.friction, lane);
       const F target1 = load(c.target1, lane), target2 = load(c.target2, lane);
-      // Friction first: what must not penetrate has the last word.
+      // Friction first, so that normal impulses have the last word on overlap.
       for (uint32_t k = 0; k < c.count; ++k)
         solve_friction(points[k], lane, pair, t1, t2, mu, target1, target2);
       const bool turns = c.turning != WideContact::no_turning;
@@ -177,7 +179,7 @@ HWY_INLINE void sweep(WideRows& rows, WideRange range, const WideStep& step) {
       const SoftLanes soft = softness(c, lane, step);
       for (uint32_t k = 0; k < c.count; ++k)
         solve_normal<biased>(points[k], lane, pair, n, change, soft, rate, push_out);
-      // After the load that bounds it, as solve_rows.
+      // After the normal impulses that bound it, as in solve_rows.
       if (!biased && turns)
         solve_turning(rows.turnings[c.turning], points, c.count, lane, pair, n, t1, t2);
       pair.write(c, lane);
@@ -251,9 +253,9 @@ void Bounce(WideRows& rows, WideRange range) {
         const F mass = load(p.normal_mass, lane), rebound = load(rebounds, lane);
         const M acts = hn::And(hn::Gt(bounce, all(0)), hn::Gt(sum, all(0)));
         const F wanted = mass * (bounce - dot(n, pair.slip(ra, rb)));
-        // What joints made too much of is taken back, as long as the blow does not pull.
+        // Impulses that joints made too large are reduced, but the contact never pulls.
         const F push = hn::IfThenElseZero(acts, hn::Max(wanted, all(0) - rebound));
-        // The blow is over: it counts in the sum and is no part of the next tick's warm start.
+        // The impulse of restitution counts in the sum, but not in the next warm start.
         store(sum + push, p.normal_sum, lane);
         store(rebound + push, rebounds, lane);
         pair.push(ra, rb, push * n);

@@ -16,7 +16,7 @@ bool moves(std::span<const RigidBody> bodies, uint32_t slot) {
   return slot != no_body && bodies[slot].dynamic();
 }
 
-/// A bound on how much easier an anchor turns its body than moves it [1/kg].
+/// Upper bound on the mobility of an anchor by rotation of its body [1/kg].
 double turning(std::span<const RigidBody> bodies, uint32_t slot, const Pose& frame) {
   return moves(bodies, slot) ? frame.x.squaredNorm() * bodies[slot].inverse_inertia_body.trace()
                              : 0;
@@ -51,7 +51,7 @@ void stage_joint(const SolverContext& c, const Joint& from, size_t lane, double 
   }
 }
 
-/// A lane without a joint: between nothing and nothing.
+/// Fills in a lane without a joint, which connects the fixed body with itself.
 void stage_nothing(size_t lane, uint32_t fixed, WideJoint& out, WideHinge* hinge) {
   out.a[lane] = out.b[lane] = fixed;
   out.source[lane] = no_body;

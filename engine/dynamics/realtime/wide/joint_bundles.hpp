@@ -9,19 +9,19 @@
 
 namespace tumble {
 
-/// Which joints of ordinary islands share bundles. Ball joints and hinges do; all other kinds,
-/// joints with arms so long that single precision would not tell their rows apart, and those that
-/// found no colour are left to the scalar rows. Memory is kept from tick to tick.
+/// Puts joints of ordinary islands into bundles: ball joints and hinges. All other kinds, joints
+/// with arms so long that their rows are linearly dependent in single precision, and those without
+/// a free colour are left to the scalar rows. Memory is reused from tick to tick.
 class JointBundles {
  public:
   /// Whether a joint goes into bundles, if it finds a colour.
   static bool takes(const Joint& joint, std::span<const RigidBody> bodies);
 
   void clear();
-  /// A joint (its index) between two bodies of the wide island.
+  /// Adds a joint by its index, between two bodies of the wide island.
   void add(const SolverContext& context, uint32_t source, uint32_t a, uint32_t b);
-  /// Colours what was added, between `bodies` many bodies; gives what found none, as indices of
-  /// joints.
+  /// Colours and bundles the joints that were added; `bodies` is the number of bodies. Returns the
+  /// indices of joints without a colour.
   std::span<const uint32_t> bundle(const SolverContext& context, uint32_t bodies);
 
   size_t size() const { return by_colour_.size(); }
@@ -30,17 +30,17 @@ class JointBundles {
 
   /// Sizes the arrays of joints and hinges.
   void resize(WideRows& rows) const;
-  /// Fills bundles for sub-steps of `hs` after the masses of bodies; lanes without a joint are
-  /// between `fixed` and itself.
+  /// Fills in bundles for sub-steps of `hs`, after the masses of bodies. Lanes without a joint
+  /// connect `fixed` with itself.
   void stage(const SolverContext& context, WideRange bundles, uint32_t fixed, double hs,
              WideRows& rows) const;
-  /// Writes the impulses back to the joints, and their sums.
+  /// Writes the impulses and their sums back to the joints.
   void store(const SolverContext& context, WideRange bundles, double hs,
              const WideRows& rows) const;
 
  private:
   struct Bundle {
-    uint32_t first = 0, lanes = 0;  ///< part of by_colour_
+    uint32_t first = 0, lanes = 0;  ///< range of by_colour_
     uint32_t hinge = WideJoint::no_hinge;
   };
   struct Added {
@@ -53,11 +53,11 @@ class JointBundles {
   std::vector<Added> added_;
   std::vector<ColourEdge> edges_;
   Colouring colouring_;
-  std::vector<uint32_t> by_colour_;  ///< indices of added_, by kind within a colour
+  std::vector<uint32_t> by_colour_;  ///< indices in added_; by kind within a colour
   std::vector<Bundle> bundles_;
   std::vector<WideRange> colours_;
   std::vector<uint32_t> left_over_;
-  uint32_t hinges_ = 0;  ///< bundles of them
+  uint32_t hinges_ = 0;  ///< number of bundles of hinges
 };
 
 }  // namespace tumble

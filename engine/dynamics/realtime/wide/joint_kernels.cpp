@@ -1,7 +1,7 @@
-// Sweeps over joints, a bundle at a time; scalar twin: realtime/solve_joints.cpp.
+// Sweeps over joints, a bundle at a time; the same in scalars: realtime/solve_joints.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/realtime/wide/joint_kernels.cpp"
@@ -29,7 +29,7 @@ struct Ends {
         ra(load(j.ra, lane)),
         rb(load(j.rb, lane)) {}
   HWY_INLINE V slip() const { return b.v - a.v + cross(b.w, rb) - cross(a.w, ra); }
-  /// Impulse P on B and -P on A at the anchors, and likewise a moment T.
+  /// Applies an impulse P on B and -P on A at the anchors, and likewise an impulsive torque T.
   HWY_INLINE void push(const V& P, const V* T) {
     V on_a = cross(ra, P), on_b = cross(rb, P);
     if (T) {
@@ -119,7 +119,7 @@ HWY_INLINE void add(const V& v, LaneVec& to, size_t lane) {
   store(load(to, lane) + v, to, lane);
 }
 
-/// To the sums; T is nothing where there is no hinge.
+/// Adds an impulse to the sums; T is null without a hinge.
 HWY_INLINE void add_push(WideJoint& j, size_t lane, const V& P, const V* T) {
   V on_a = cross(P, load(j.ra, lane)), on_b = cross(load(j.rb, lane), P);
   if (T) {
@@ -168,7 +168,7 @@ HWY_INLINE Column<n> velocities(const Ends& ends, const WideHinge* h, size_t lan
   return c;
 }
 
-/// Which joints of a bundle a sweep is for.
+/// Which joints of a bundle a sweep solves.
 enum class Swept { all, struck };
 
 template <size_t n, JointPass pass, Swept swept>
@@ -227,7 +227,7 @@ void SolveJoints(WideRows& rows, WideRange range, JointPass pass) {
   }
 }
 
-/// Errors are worked off by sweeps over all.
+/// Not for the correcting pass, whose sweeps are over all joints.
 void SolveStruckJoints(WideRows& rows, WideRange range, JointPass pass) {
   if (pass == JointPass::moving) {
     sweep_joints<JointPass::moving, Swept::struck>(rows, range);

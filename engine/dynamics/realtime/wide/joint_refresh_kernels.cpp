@@ -1,8 +1,8 @@
-// Joints where their bodies are now, a bundle at a time; scalar twin: refresh_joints in
+// Rows of joints at the present poses, a bundle at a time; the same in scalars: refresh_joints in
 // realtime/solve_joints.cpp.
 #include "engine/dynamics/realtime/wide/wide_kernels.hpp"
 
-// This file once per instruction set, then what each time needs.
+// Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/realtime/wide/joint_refresh_kernels.cpp"
@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 
-/// As factorise in solve_joints.cpp.
+/// As factorise_kept in kept_rows.hpp, all rows being kept.
 template <size_t n>
 HWY_INLINE void factorise(Column<n> (&k)[n]) {
   for (size_t j = 0; j < n; ++j) {
@@ -45,8 +45,8 @@ HWY_INLINE Sym rotated(const Sym& m, F s, const V& u) {
   return {dot(x, mx), dot(x, my), dot(x, mz), dot(y, my), dot(y, mz), dot(z, mz)};
 }
 
-/// What a body's rotation adds to the mobility of a point with arm r: the sum over unit impulses e
-/// of (I (r x e)) x r.
+/// Mobility by a body's rotation of a point with arm r: column by column (I (r x e)) x r for unit
+/// impulses e.
 HWY_INLINE Sym turning_mobility(const Sym& i, const V& r) {
   const V x{i.xy * r.z - i.xz * r.y, i.yy * r.z - i.yz * r.y, i.yz * r.z - i.zz * r.y};
   const V y{i.xz * r.x - i.xx * r.z, i.yz * r.x - i.xy * r.z, i.zz * r.x - i.xz * r.z};
@@ -55,9 +55,9 @@ HWY_INLINE Sym turning_mobility(const Sym& i, const V& r) {
           y.z * r.x - y.x * r.z, z.z * r.x - z.x * r.z, z.x * r.y - z.y * r.x};
 }
 
-/// A body of a joint where it is now.
+/// The present pose and angular velocity of a body of a joint.
 struct Placed {
-  V dx, w, u;  ///< displacement, angular velocity, vector part of the turn since the start
+  V dx, w, u;  ///< displacement, angular velocity, vector part of the rotation since the start
   F s;         ///< its scalar part
   HWY_INLINE explicit Placed(const Moving& m) : w(m.w) {
     const Four q = read_quad(m.at.data(), 2);
@@ -72,7 +72,7 @@ HWY_INLINE void set_inertia(const WideRows& rows, WideJoint& j, size_t lane, con
                             const Placed& b) {
   const Held held_a = read_mass(rows.masses.data(), j.a.data() + lane);
   const Held held_b = read_mass(rows.masses.data(), j.b.data() + lane);
-  // A joint of balls keeps its bits beside one of boxes.
+  // Chosen by lane, so that a joint of spheres has the same bits beside one of boxes.
   const M uneven = hn::Gt(load(j.uneven, lane), all(0));
   store(choose(uneven, rotated(held_a.inertia, a.s, a.u), load(j.inertia_a, lane)), j.inertia_a,
         lane);
@@ -80,7 +80,7 @@ HWY_INLINE void set_inertia(const WideRows& rows, WideJoint& j, size_t lane, con
         lane);
 }
 
-/// See followed_share() in solve_joints.cpp.
+/// See followed_share() in joint_lines.hpp.
 HWY_INLINE F followed_share(const Placed& a, const Placed& b, const WideStep& step) {
   const F most = all(float(tolerances::max_turn_per_substep * tolerances::max_turn_per_substep) /
                      (step.hs * step.hs));
@@ -96,8 +96,8 @@ HWY_INLINE V bounded(const V& correction) {
   return {bounded(correction.x), bounded(correction.y), bounded(correction.z)};
 }
 
-/// Errors and arms. Targets are what brings the end of the sub-step, C + hs J v + hs^2/2 (dJ/dt v),
-/// along the joint and onto it.
+/// Computes errors and arms. Targets are the velocities whose removal makes the end of the
+/// sub-step, C + hs J v + hs^2/2 (dJ/dt v), keep its error or reduce it.
 HWY_INLINE void refresh_point(WideJoint& j, size_t lane, const Placed& a, const Placed& b,
                               const WideStep& step, F share) {
   const V at_a = load(j.at_a, lane), at_b = load(j.at_b, lane);
@@ -125,7 +125,7 @@ HWY_INLINE void refresh_hinge(WideHinge& h, size_t lane, const Placed& a, const 
   }
 }
 
-/// K = J M^-1 J^T, factorised.
+/// Computes and factorises K = J M^-1 J^T.
 template <size_t n>
 HWY_INLINE void set_effective_mass(WideJoint& j, WideHinge* h, size_t lane) {
   const Sym ia = load(j.inertia_a, lane), ib = load(j.inertia_b, lane);

@@ -11,13 +11,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 
-/// Rows of a joint: three of the anchors, and two of a hinge.
+/// Rows of a joint: three of a ball joint, and two more of a hinge.
 template <size_t n>
 struct Column {
   F x[n];
 };
 
-/// The triangle of WideJoint::factor and WideHinge::factor.
+/// An entry of the triangle that WideJoint::factor and WideHinge::factor hold.
 template <size_t n>
 HWY_INLINE LaneFloats& entry(WideJoint& j, WideHinge* h, size_t row, size_t column) {
   const size_t k = row * (row + 1) / 2 + column;

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// Vectors and symmetric matrices in and out of the arrays of the kernels.
+/// Vectors and symmetric matrices to and from the single-precision arrays of the kernels.
 inline void put_floats(std::array<float, 3>& to, const Vec3& v) {
   for (int k = 0; k < 3; ++k) to[size_t(k)] = float(v[k]);
 }

@@ -1,4 +1,5 @@
-// Vectors of three over the lanes of a machine, and bodies read by lane. Included once per target.
+// Vectors of three over the lanes of a SIMD vector, and bodies read by lane. Included once per
+// target.
 #if defined(TUMBLE_WIDE_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TUMBLE_WIDE_LANES_INL
 #undef TUMBLE_WIDE_LANES_INL
@@ -17,7 +18,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, wide_lanes>;
 using F = hn::Vec<Lanes>;
 using M = hn::Mask<Lanes>;
-constexpr size_t step_lanes = hn::MaxLanes(Lanes());  ///< a divisor of wide_lanes
+/// Lanes computed at once; divides wide_lanes.
+constexpr size_t step_lanes = hn::MaxLanes(Lanes());
 
 HWY_INLINE F all(float x) {
   return hn::Set(Lanes(), x);
@@ -91,18 +93,18 @@ HWY_INLINE void store(const Sym& m, LaneSym& to, size_t lane) {
   store(m.zz, to[5], lane);
 }
 
-/// R v - v for the rotation by the unit quaternion (s, u).
+/// R v - v for the rotation R by the unit quaternion (s, u).
 HWY_INLINE V turned_by(F s, const V& u, const V& v) {
   const V c = cross(u, v);
   const V twice = s * c + cross(u, c);
   return twice + twice;
 }
-/// The scalar part of a unit quaternion with this vector part.
+/// The scalar part (not negative) of a unit quaternion with this vector part.
 HWY_INLINE F scalar_part(const V& u) {
   return hn::Sqrt(hn::Max(all(0), all(1) - dot(u, u)));
 }
 
-/// Four consecutive floats of each of the lanes: component k of all in out[k].
+/// Four consecutive floats of each lane: component k of all lanes is in ck.
 struct Four {
   F c0, c1, c2, c3;
 };
@@ -121,7 +123,7 @@ HWY_INLINE void write_quad(const Four& q, float* const* to, uint32_t mask, size_
   p[3] = hn::GetLane(q.c3);
 }
 #else
-/// 4 x 4 within every block of four lanes; its own inverse.
+/// Transposes 4 x 4 floats within every block of four lanes; its own inverse.
 HWY_INLINE Four transposed(const Four& r) {
   const Lanes d;
   const hn::Repartition<double, Lanes> pairs;
@@ -135,7 +137,7 @@ HWY_INLINE Four transposed(const Four& r) {
           hn::BitCast(d, hn::InterleaveUpper(pairs, h01, h23))};
 }
 
-/// Four floats of every fourth lane, from `lane` on: a block for each.
+/// Loads four floats at `offset` of the lanes `lane`, `lane` + 4, ...: one block for each.
 template <class D>
 HWY_INLINE hn::Vec<D> read_blocks(D d, const float* const* from, size_t lane, size_t offset) {
   if constexpr (hn::MaxLanes(D()) > 4) {
@@ -162,7 +164,7 @@ HWY_INLINE Four read_quad(const float* const* from, size_t quad) {
   return transposed({read_blocks(d, from, 0, 4 * quad), read_blocks(d, from, 1, 4 * quad),
                      read_blocks(d, from, 2, 4 * quad), read_blocks(d, from, 3, 4 * quad)});
 }
-/// Lanes whose bit is not set are left alone.
+/// Lanes whose bit in `mask` is not set are not written.
 HWY_INLINE void write_quad(const Four& q, float* const* to, uint32_t mask, size_t quad) {
   const Four r = transposed(q);
   const Lanes d;
@@ -173,11 +175,11 @@ HWY_INLINE void write_quad(const Four& q, float* const* to, uint32_t mask, size_
 }
 #endif
 
-/// Velocities of the bodies of the lanes, and their place in memory.
+/// Velocities of the bodies of the lanes, and their addresses.
 struct Moving {
   std::array<float*, step_lanes> at;
   V v, w;
-  F dx0, dx1;  ///< share a quad with w
+  F dx0, dx1;  ///< displacement x and y, in one quad with w
 
   HWY_INLINE Moving(WideBody* bodies, const uint32_t* index) {
     for (size_t k = 0; k < step_lanes; ++k) at[k] = reinterpret_cast<float*>(bodies + index[k]);
@@ -194,9 +196,9 @@ struct Moving {
 };
 static_assert(sizeof(WideBody) == 64 && sizeof(WideMass) == 64);
 
-/// What WideMass holds of the bodies of the lanes.
+/// The contents of WideMass for the bodies of the lanes.
 struct Held {
-  V u;  ///< orientation at the start
+  V u;  ///< vector part of the orientation at the start
   F s, mass;
   Sym inertia;
 };
@@ -208,7 +210,7 @@ HWY_INLINE Held read_mass(const WideMass* masses, const uint32_t* index) {
   return {{q.c0, q.c1, q.c2}, q.c3, m.c0, {m.c1, m.c2, m.c3, i.c0, i.c1, i.c2}};
 }
 
-/// Masses of both bodies, of a bundle of contacts or joints.
+/// Stores the masses of both bodies in a bundle of contacts or joints.
 template <class Bundle>
 HWY_INLINE void store_masses(const Held& a, const Held& b, Bundle& to, size_t lane) {
   store(a.mass, to.mass_a, lane);
@@ -217,7 +219,7 @@ HWY_INLINE void store_masses(const Held& a, const Held& b, Bundle& to, size_t la
   store(b.inertia, to.inertia_b, lane);
 }
 
-/// The greatest of the lanes that are computed at once, or 0.
+/// The greatest of the lanes of one vector, or 0.
 HWY_INLINE float greatest_lane(F values) {
   LaneFloats lanes;
   store(values, lanes, 0);

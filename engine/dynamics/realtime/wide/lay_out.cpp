@@ -1,4 +1,4 @@
-// Which body, contact and joint goes where.
+// Assigns bodies, contacts and joints to the arrays.
 #include "engine/dynamics/realtime/solve_joints.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 
@@ -43,7 +43,8 @@ uint32_t WideIsland::add_body(uint32_t slot) {
   return uint32_t(slots_.size() - 1);
 }
 
-/// Bodies that the kernels integrate, then those that need care, then what stands for fixed ones.
+/// Adds the bodies that the kernels integrate, then those that need double precision, then the one
+/// for fixed bodies.
 void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
                             std::span<const uint32_t> which) {
   careful_.clear();
@@ -73,7 +74,8 @@ void WideIsland::add_bodies(const SolverContext& c, const IslandSet& islands,
 
 uint32_t WideIsland::find(uint32_t slot) {
   if (slot == no_body || !is(slot, BodyTraits::dynamic | BodyTraits::kinematic)) return fixed_;
-  return local_[slot] != no_place ? local_[slot] : add_body(slot);  // kinematic, seen first here
+  // kinematic body that occurs for the first time
+  return local_[slot] != no_place ? local_[slot] : add_body(slot);
 }
 
 uint32_t WideIsland::in_rest(uint32_t body) {
@@ -138,8 +140,8 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
   if (which.empty()) return;
   add_bodies(c, islands, which);
   rest_of_.assign(slots_.size(), no_place);
-  // What is integrated in double precision comes first in the rest: those that need care, and
-  // kinematic bodies, which the joints and contacts below bring in.
+  // Bodies that are integrated in double precision come first in the rest: those that need care,
+  // and kinematic bodies, which are found by the contacts and joints below.
   for (uint32_t k = simple_; k < fixed_; ++k) in_rest(k);
   for (const uint32_t k : which) {
     const Island& island = islands.islands[k];
@@ -172,7 +174,8 @@ void WideIsland::lay_out(const SolverContext& c, const IslandSet& islands,
   bundle();
 }
 
-/// The part of each island of the rest, which comes in their order but for what found no colour.
+/// Sets the range of each island in the rest, whose rows are in the order of islands except for
+/// those without a colour.
 template <class Row>
 void WideIsland::part_rest(std::vector<Row>& rows, WideRange Part::*range) {
   const auto of = [this](const Row& row) {
@@ -199,7 +202,8 @@ void WideIsland::part(const IslandSet& islands, std::span<const uint32_t> which)
   part_rest(joints_, &Part::joints);
 }
 
-/// Contacts of a colour with the same number of points share bundles as far as possible.
+/// Puts contacts into bundles by colour, those with equal numbers of points together as far as
+/// possible.
 void WideIsland::bundle() {
   for (uint32_t colour = 0; colour < colouring_.colours(); ++colour) {
     const auto begin = uint32_t(bundles_.size());

@@ -1,4 +1,4 @@
-// From bodies and contacts to the arrays of the kernels, and back.
+// Moves data from bodies and contacts to the arrays of the kernels, and back.
 #include "engine/core/prefetch.hpp"
 #include "engine/dynamics/bodies/slender.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
@@ -52,7 +52,7 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
   to.target3[lane] = float(from.surface_velocity.z());
   to.counts[lane] = uint32_t(from.count);
   for (uint32_t k = 0; k < to.count; ++k) {
-    // What is beyond the last point gets no masses, and stays as it is.
+    // Entries beyond the last point of a contact get zero masses and stay unchanged.
     const ContactPoint& p = k < to.counts[lane] ? from.points[k] : no_point;
     WidePoint& out = points[to.first + k];
     put_floats(out.ra, lane, p.anchor_a);
@@ -65,14 +65,14 @@ void stage_contact(const Contact& from, WideContact& to, std::vector<WidePoint>&
   }
 }
 
-/// Of a bundle with a WideTurning.
+/// Stages rolling and torsional friction, for a bundle with a WideTurning.
 void stage_turning(const Contact& from, size_t lane, WideTurning& to) {
   to.rolling[lane] = float(from.rolling_friction);
   to.torsional[lane] = float(from.torsional_friction);
   put_floats(to.impulse, lane, from.turning_torque);
 }
 
-/// A lane without a contact: between nothing and nothing.
+/// Fills in a lane without a contact, between the fixed body and itself.
 void stage_nothing(WideContact& to, std::vector<WidePoint>& points, size_t lane, uint32_t fixed) {
   to.source[lane] = no_body_slot;
   to.a[lane] = to.b[lane] = fixed;
@@ -81,7 +81,7 @@ void stage_nothing(WideContact& to, std::vector<WidePoint>& points, size_t lane,
 
 void store_turning(const WideTurning& from, uint32_t lane, double rate, const Vec3& t1,
                    const Vec3& t2, Contact& to) {
-  // What has no such row keeps its zeros, whatever else is in the bundle.
+  // Contacts without such friction keep their zeros, whatever else is in the bundle.
   if (!to.resists_turning()) return;
   const Mat3 axes = Mat3::from_columns(t1, t2, to.normal);
   to.turning_torque = axes * (rate * doubles_of(from.impulse, lane));
@@ -135,7 +135,7 @@ void WideIsland::stage_bundle(const SolverContext& c, uint32_t i) {
     to.source[lane] = sources_[edge];
     if (edges_[edge].a != ColourEdge::fixed) to.writes_a = uint16_t(to.writes_a | 1u << lane);
     if (edges_[edge].b != ColourEdge::fixed) to.writes_b = uint16_t(to.writes_b | 1u << lane);
-    // A kinematic body has a place of its own, fixed ones share one.
+    // Each kinematic body has an index of its own, fixed ones share one.
     const auto at = [&](uint32_t slot) {
       return local_[slot] == no_body_slot ? fixed_ : local_[slot];
     };
@@ -158,7 +158,7 @@ void WideIsland::stage_contacts(const SolverContext& c, WideRange bundles) {
   }
 }
 
-/// The contacts of a colour are anywhere.
+/// Prefetches contacts, which for one colour are scattered in memory.
 void WideIsland::fetch_contacts(const SolverContext& c, uint32_t i) const {
   const Bundle& bundle = bundles_[i];
   for (uint32_t lane = 0; lane < bundle.lanes; ++lane)
@@ -213,7 +213,7 @@ void WideIsland::store_bodies(const SolverContext& c, uint32_t begin, uint32_t e
     const WideBody& from = rows_.bodies[k];
     to.pose.x += doubles_of(from.dx);
     to.pose.q = (wide_turn(from) * to.pose.q).normalized();
-    // Zeros have no sign: that of a lane with nothing to do depends on the others of its bundle.
+    // Adding +0 turns -0 into +0: the sign of a zero would depend on other lanes of its bundle.
     to.v = doubles_of(from.v) + Vec3::Zero();
     to.omega = doubles_of(from.w) + Vec3::Zero();
   }

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t chunk_size = 8;  ///< bundles, of bodies too, that a thread takes at once
+constexpr uint32_t chunk_size = 8;  ///< bundles (also of bodies) that a thread takes at once
 
 /// Calls f(WideRange) for chunks of [begin, end).
 template <class F>
@@ -25,7 +25,7 @@ void each_chunk(Crew& crew, WideRange range, const F& f, uint32_t size = chunk_s
   });
 }
 
-/// The same for the many short loops whose steps cost the same: a share for each thread.
+/// The same for short loops with equal cost per bundle: one range for each thread.
 template <class F>
 void each_share(Crew& crew, WideRange range, const F& f) {
   const uint32_t n = range.end - range.begin, threads = uint32_t(crew.threads());
@@ -88,7 +88,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
   return left;
 }
 
-/// Ranges of bodies by bundles.
+/// Calls f(begin, end) for ranges of bodies, by whole bundles.
 template <class F>
 void WideIsland::each_block(Crew& crew, uint32_t bodies, const F& f) {
   constexpr auto lanes = uint32_t(wide_lanes);
@@ -122,7 +122,7 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   stage_rest(c, hs);
 }
 
-/// Forces over `h` on what the kernels integrate.
+/// Applies forces over `h` to the bodies that the kernels integrate.
 void WideIsland::kick(Crew& crew, double h) {
   each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
              [&](WideRange r) { wide_kick(rows_, r, float(h)); });
@@ -138,7 +138,7 @@ void WideIsland::sum_all_joints(Crew& crew, double hs, JointPass pass) {
   each_chunk(crew, all_joints(), [&](WideRange r) { wide_sum_joints(rows_, r, pass); });
 }
 
-/// As sweep_joints.
+/// Sweeps like sweep_joints.
 template <class F>
 void WideIsland::sweep_bundled_joints(Crew& crew, JointSweeps which, const F& f) {
   const std::span<const WideRange> colours = joint_bundles_.colours();
@@ -152,7 +152,7 @@ void WideIsland::solve_bundled_joints(Crew& crew, JointPass pass) {
                        [&](WideRange r) { wide_solve_joints(rows_, r, pass); });
 }
 
-/// Sweeps over all joints of the islands whose `change` is above `least`, and over no others.
+/// Sweeps over all joints of the islands whose `change` is above `least`, and no others.
 void WideIsland::solve_struck_joints(Crew& crew, double hs, JointPass pass, double least) {
   constexpr JointSweeps sweeps{0, tolerances::ordinary_joint_sweeps};
   each_chunk(crew, all_joints(), [&](WideRange r) { mark_struck(r, least); });
@@ -164,7 +164,7 @@ void WideIsland::solve_struck_joints(Crew& crew, double hs, JointPass pass, doub
                        [&](WideRange r) { wide_solve_struck_joints(rows_, r, pass); });
 }
 
-/// Forces over `h`, and the impulses of the sub-step before to start from.
+/// Applies forces over `h`, and the impulses of the previous sub-step as a warm start.
 void WideIsland::start(const SolverContext& c, Crew& crew, const WideStep& step, double h) {
   kick(crew, h);
   with_rest([&](const SolverIsland& rest) {
@@ -181,8 +181,8 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
   const double push_out = c.settings->push_out_speed;
   const double before = kick_, after = hs - before;
   if (books_.open) note_blow_speeds(0);
-  // Lever arms and masses of bundled contacts are those of the start of the tick: where there is
-  // nothing else, the impulses of the sub-step before change the velocities as they did then.
+  // Lever arms and masses of bundled contacts are those of the start of the tick; if there is
+  // nothing else, the impulses of the previous sub-step change velocities as they did then.
   if (!first && sort_ == WideSort::plain) {
     each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
                [&](WideRange r) { wide_kick_again(rows_, r, step.hs); });

@@ -13,20 +13,20 @@
 namespace tumble {
 
 class Crew;
-/// Ordinary islands of one sort, solved together in bundles of contacts by colour. What the
-/// bundles cannot do, the rest, is solved by the scalar rows within the same sweeps: other
-/// joints, contacts of bodies that spin fast or are slender, and those that found no colour. No
-/// island feels which others are solved with it: bundles of a colour work lane by lane, and what
-/// is decided for all at once follows from their sort. Memory is kept from tick to tick.
+/// Ordinary islands of one sort, solved together in bundles of contacts by colour. What does not
+/// fit into bundles, the rest, is solved by the scalar rows within the same sweeps: other kinds of
+/// joints, contacts of bodies that turn fast or are slender, and those without a colour. The result
+/// of an island does not depend on which others are solved with it: lanes are independent, and
+/// decisions that are made once for all follow from the sort. Memory is reused from tick to tick.
 class WideIsland {
  public:
-  /// Takes over the islands named by `which`, all of the same sort. `traits`, by body slot, must
-  /// live until the end of solve().
+  /// Takes over the islands with indices `which`, all of the same sort. `traits`, by body slot,
+  /// must live until the end of solve().
   void lay_out(const SolverContext& context, const IslandSet& islands,
                std::span<const uint32_t> which, std::span<const BodyTraits> traits, WideSort sort,
                Crew& crew);
-  /// All sub-steps; writes back bodies and impulses. The threads of `crew` share the work; the
-  /// result does not depend on them.
+  /// Runs all sub-steps; writes back bodies and impulses. The threads of `crew` share the work; the
+  /// result does not depend on their number.
   SolveResiduals solve(const SolverContext& context, Crew& crew);
 
   void add_memory(MemoryUse& use) const;
@@ -40,24 +40,26 @@ class WideIsland {
 
  private:
   struct Bundle {
-    uint32_t first_edge = 0, lanes = 0;  ///< part of by_count_
+    uint32_t first_edge = 0, lanes = 0;  ///< range of by_count_
     uint32_t first_point = 0, count = 0;
-    uint32_t turning = WideContact::no_turning;  ///< its WideTurning
+    uint32_t turning = WideContact::no_turning;  ///< index of its WideTurning
   };
-  /// One of the islands: what of the rest is its own, and how a blow goes through it. A blow is
-  /// followed for as long as it changes in this island, however long that takes in others.
+  /// One of the islands: its range of the rest, and how an impact spreads through it. That is
+  /// continued for as long as it changes something in this island, however long it takes in others.
   struct Part {
-    WideRange rows, joints;   ///< of the rest
-    double change = 0;        ///< of the last turn, as apply_restitution or blow_change gives it
-    bool struck = false;      ///< its bounces have another turn
-    bool remembered = false;  ///< impulses of its joints are, in this sub-step
-    bool blown = false;       ///< then there was a blow
-    bool bounces = false;     ///< contacts of it do in this tick
-    double taken = 0;         ///< of its energy, see blow_energy [J]
-    double share = 1;         ///< of the blow that it bears
+    WideRange rows, joints;  ///< ranges of the rest
+    /// Greatest change in the last round, as apply_restitution or blow_change returns it.
+    double change = 0;
+    bool struck = false;      ///< its bounces take part in another round
+    bool remembered = false;  ///< impulses of its joints are remembered in this sub-step
+    bool blown = false;       ///< and there was an impact
+    bool bounces = false;     ///< contacts of it bounce in this tick
+    double taken = 0;         ///< energy that was taken, see blow_energy [J]
+    double share = 1;         ///< share of the impact that is kept
   };
-  /// What the energy of blows is told by, of islands with joints in which contacts bounce: bundled
-  /// points that do, as PointRow has it, and all bundled joints of these, as JointBlock has it.
+  /// What is needed for the energy of impacts in islands with joints in which contacts bounce: the
+  /// bundled points that bounce, as in PointRow, and all bundled joints of these islands, as in
+  /// JointBlock.
   struct BlowBooks {
     struct Point {
       uint32_t contact, point, lane, part;
@@ -70,8 +72,8 @@ class WideIsland {
     };
     std::vector<Point> points;
     std::vector<Joint> joints;
-    std::vector<WideBody> bodies;  ///< before the blow
-    bool open = false;             ///< some part bounces
+    std::vector<WideBody> bodies;  ///< before the impact
+    bool open = false;             ///< some island bounces
   };
   void clear(const SolverContext& context, std::span<const uint32_t> involved);
   void add_bodies(const SolverContext& context, const IslandSet& islands,
@@ -87,7 +89,7 @@ class WideIsland {
   void part(const IslandSet& islands, std::span<const uint32_t> which);
   template <class Row>
   void part_rest(std::vector<Row>& rows, WideRange Part::*range);
-  /// Of what is between two bodies, of which one at least is in an island.
+  /// The part of a constraint between two bodies, at least one of which is in an island.
   uint32_t part_of(uint32_t a, uint32_t b) const {
     return islands_[a] < parts_.size() ? islands_[a] : islands_[b];
   }
@@ -125,7 +127,7 @@ class WideIsland {
   void each_block(Crew& crew, uint32_t bodies, const F& f);
   template <class F>
   void each_colour(Crew& crew, const F& f);
-  /// What the scalar rows do, between reading and writing the velocities of their bodies.
+  /// Runs f(scalar rows) between reading and writing the velocities of their bodies.
   template <class F>
   void with_rest(const F& f) {
     if (rest_bodies_.empty()) return;
@@ -152,55 +154,58 @@ class WideIsland {
 
   SolverIsland rest();
   SolverIsland rest_of(const Part& part);
-  /// The part of the rest whose bodies are integrated in double precision.
+  /// The bodies of the rest that are integrated in double precision.
   SolverIsland special();
   void read_velocities();
   void read_poses();
   void write_velocities();
   void write_poses();
 
-  std::vector<uint32_t> slots_;  ///< by body; none for padding and for what stands for all fixed
-  std::vector<uint32_t> local_;  ///< by body slot: its body here
+  /// By body; none for padding and for the one that stands for all fixed bodies.
+  std::vector<uint32_t> slots_;
+  std::vector<uint32_t> local_;  ///< by body slot: index of its body here
   bool is(uint32_t slot, uint8_t flag) const { return traits_[slot].is(flag); }
-  /// As in solve_island: two halves where nothing but joints acts.
+  /// As in solve_island: forces act in two halves if there are only joints.
   double kick_time(double hs) const { return sort_ == WideSort::joints ? 0.5 * hs : hs; }
   bool has_joints() const { return sort_ >= WideSort::jointed; }
   std::span<const BodyTraits> traits_;  ///< by body slot
   WideSort sort_ = WideSort::plain;
   static constexpr uint8_t by_row = 1, by_bundle = 2;
-  std::vector<uint8_t> jointed_;   ///< by body slot: which sorts of joints hold it
+  /// By body slot: whether joints of the rest or of bundles hold it.
+  std::vector<uint8_t> jointed_;
   std::vector<uint8_t> bundled_;   ///< by joint: whether it may go into bundles
-  std::vector<uint32_t> careful_;  ///< slots of those that the kernels do not integrate
-  uint32_t simple_ = 0;            ///< bodies that the kernels integrate, a multiple of wide_lanes
-  uint32_t fixed_ = 0;             ///< stands for all fixed bodies, and for unused lanes
+  std::vector<uint32_t> careful_;  ///< slots of bodies that the kernels do not integrate
+  uint32_t simple_ = 0;  ///< number of bodies that the kernels integrate, a multiple of wide_lanes
+  /// Index of the body that stands for all fixed ones and is used by empty lanes.
+  uint32_t fixed_ = 0;
   WideRows rows_;
   std::vector<ColourEdge> edges_;
   std::vector<uint32_t> sources_;  ///< by edge: index into the contact set
-  std::vector<uint8_t> counts_;    ///< by edge: points
+  std::vector<uint8_t> counts_;    ///< by edge: number of points
   std::vector<uint8_t> turns_;     ///< by edge: Contact::resists_turning
   Colouring colouring_;
-  std::vector<uint32_t> by_count_;  ///< edges of the bundles
+  std::vector<uint32_t> by_count_;  ///< edges in the order of the bundles
   std::vector<Bundle> bundles_;
-  std::vector<WideRange> colours_;  ///< bundles of each
+  std::vector<WideRange> colours_;  ///< range of bundles of each colour
   JointBundles joint_bundles_;
   uint32_t bundled_points_ = 0, turning_bundles_ = 0;
   size_t points_ = 0;
 
-  std::vector<Part> parts_;        ///< by island, where these have joints
-  std::vector<uint32_t> islands_;  ///< by body: its part; none of what is not in an island
+  std::vector<Part> parts_;        ///< by island; empty without joints
+  std::vector<uint32_t> islands_;  ///< by body: its part; none if it is in no island
   BlowBooks books_;
-  std::vector<uint32_t> rest_of_;      ///< by body: its place in the rest
-  std::vector<uint32_t> rest_bodies_;  ///< by place
-  uint32_t special_ = 0;               ///< those come first
+  std::vector<uint32_t> rest_of_;      ///< by body: its index in the rest
+  std::vector<uint32_t> rest_bodies_;  ///< by index in the rest: body
+  uint32_t special_ = 0;               ///< number of bodies of special(), which come first
   std::vector<SolverBody> bodies_;
   std::vector<SolverMotion> motions_;
   std::vector<ContactRow> rest_rows_;
   std::vector<PointRow> rest_points_;
   std::vector<JointBlock> joints_;
   std::vector<DriveRow> drives_;
-  double kick_ = 0;  ///< how long forces act in a sub-step before joints do [s]
+  double kick_ = 0;  ///< time for which forces act in a sub-step before the joints are solved [s]
   Softness joint_softness_;
-  std::vector<float> residuals_, joint_residuals_;  ///< by chunk
+  std::vector<float> residuals_, joint_residuals_;  ///< by chunk of bundles
 };
 
 }  // namespace tumble

@@ -1,0 +1,128 @@
+#include "engine/geometry/wrap/outside_grid.hpp"
+
+#include "engine/core/crew.hpp"
+#include "engine/core/stop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr int edge = SparseField::edge;
+/// Of a tetrahedron, over the spacing: the diagonal of a cube.
+const double longest_edge = std::sqrt(3.0);
+/// Values, what has been reached, and what isosurface() keeps of its nodes: six bytes each.
+constexpr size_t nodes_of_brick = size_t{edge} * edge * edge;
+constexpr size_t bytes_of_brick = sizeof(SparseField::Brick) + 6 * nodes_of_brick;
+
+Error too_many(double bricks, double spacing, size_t max_bricks) {
+  return {ErrorCode::invalid_argument,
+          fmt::format("a wrap with cells of {:.3g} m needs {:.3g} MB, which is more than {:.3g} MB",
+                      spacing, 1e-6 * bricks * bytes_of_brick,
+                      1e-6 * double(max_bricks * bytes_of_brick)),
+          {},
+          fmt::format("cells of {:.2g} m would do",
+                      1.1 * spacing * std::cbrt(bricks / double(max_bricks)))};
+}
+
+}  // namespace
+
+Result<OutsideGrid> OutsideGrid::make(const Aabb& box, double margin, double spacing,
+                                      size_t max_bytes) {
+  const Aabb room = box.inflated(margin + 2 * longest_edge * spacing);
+  if (Status fine = check_spacing(spacing, room); !fine) return fine.error();
+  OutsideGrid out;
+  out.field_.spacing = spacing;
+  const Array3<double> first = (room.min / (spacing * edge)).array().floor(),
+                       last = (room.max / (spacing * edge)).array().floor();
+  const double count = (last - first + 1).prod();
+  const size_t most = std::min(most_bricks, max_bytes / bytes_of_brick);
+  if (!(count <= double(most))) return too_many(count, spacing, most);
+  const Array3<int> a = first.cast<int>(), b = last.cast<int>();
+  for (int k = 0; k < 3; ++k) {
+    out.bricks_[size_t(k)] = b[k] - a[k] + 1;
+    out.nodes_[size_t(k)] = edge * out.bricks_[size_t(k)];
+  }
+  out.field_.bricks.resize(size_t(count));
+  size_t n = 0;
+  for (int i = a[0]; i <= b[0]; ++i)
+    for (int j = a[1]; j <= b[1]; ++j)
+      for (int k = a[2]; k <= b[2]; ++k) {
+        out.field_.bricks[n].at = {i, j, k};
+        out.field_.bricks[n++].value.fill(1);
+      }
+  return out;
+}
+
+void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(double, bool)> f, int y,
+                              int z) {
+  const GridIndex& first = field_.bricks[0].at;
+  const double h = field_.spacing;
+  // A surface is no farther from a node than from the one before it and the way between them.
+  double reach = std::numeric_limits<double>::infinity();
+  for (int x = 0; x < nodes_[0];) {
+    const Vec3 p = field_.position({edge * first[0] + x, edge * first[1] + y, edge * first[2] + z});
+    auto near = surface.closest(p, reach);
+    if (!near) near = surface.closest(p, std::numeric_limits<double>::infinity());
+    const double d = std::sqrt(near->squared_distance);
+    double value = f(d, at({x, y, z}) < 0);
+    at({x, y, z}) = value;
+    // The sign stays over what is left beyond the reach of an edge.
+    const double left = std::fabs(value) / h - longest_edge;
+    const int sure = std::min(nodes_[0] - x - 1, left > 1 ? int(std::min(left, 1e6)) : 0);
+    const double step = value < 0 ? h : -h;
+    for (int k = 1; k <= sure; ++k) at({x + k, y, z}) = value += step;
+    x += sure + 1;
+    reach = (d + (sure + 1) * h) * (1 + 1e-6);
+  }
+}
+
+void OutsideGrid::measure(const Hierarchy& surface, FunctionRef<double(double, bool)> f,
+                          Crew* crew) {
+  const auto row = [&](size_t n) {
+    if (stop_requested()) return;
+    measure_row(surface, f, int(n % size_t(nodes_[1])), int(n / size_t(nodes_[1])));
+  };
+  const size_t rows = size_t(nodes_[1]) * size_t(nodes_[2]);
+  if (crew) {
+    crew->each(rows, row);
+  } else {
+    for (size_t n = 0; n < rows; ++n) row(n);
+  }
+}
+
+void OutsideGrid::fill_unreached() {
+  std::vector<uint8_t> reached(field_.bricks.size() * nodes_of_brick, 0);
+  std::vector<std::array<int, 3>> front{{0, 0, 0}}, next;
+  reached[0] = 1;
+  const auto visit = [&](const std::array<int, 3>& node) {
+    for (size_t k = 0; k < 3; ++k)
+      if (node[k] < 0 || node[k] >= nodes_[k]) return;
+    uint8_t& mark = reached[number(node)];
+    if (mark || at(node) < 0) return;
+    mark = 1;
+    next.push_back(node);
+  };
+  // Edges of Kuhn's tetrahedra go from a corner of a cube to one that has more bits.
+  while (!front.empty() && !stop_requested()) {
+    for (const auto& [x, y, z] : front)
+      for (int c = 1; c < 8; ++c) {
+        const int i = c & 1, j = c >> 1 & 1, k = c >> 2 & 1;
+        visit({x + i, y + j, z + k});
+        visit({x - i, y - j, z - k});
+      }
+    front.swap(next);
+    next.clear();
+  }
+  for (int z = 0; z < nodes_[2] && !stop_requested(); ++z)
+    for (int y = 0; y < nodes_[1]; ++y)
+      for (int x = 0; x < nodes_[0]; ++x)
+        if (double& value = at({x, y, z}); !reached[number({x, y, z})] && !(value < 0))
+          value = -field_.spacing;
+}
+
+}  // namespace tumble

@@ -1,0 +1,46 @@
+#pragma once
+#include "engine/core/function_ref.hpp"
+#include "engine/geometry/hierarchy/hierarchy.hpp"
+#include "engine/geometry/isosurface/sparse_field.hpp"
+
+namespace tumble {
+
+class Crew;
+
+/// A function on all nodes of a box that is less than 0 inside, and of which nothing but where it
+/// is 0 is wanted.
+class OutsideGrid {
+ public:
+  /// With room for `margin` [m] about a box; errors name a spacing that would do.
+  static Result<OutsideGrid> make(const Aabb& box, double margin, double spacing, size_t max_bytes);
+
+  /// At every node f(distance from a surface, whether the node was inside) [m], exactly within the
+  /// longest edge of a tetrahedron from where it is 0, elsewhere with its sign alone. f changes by
+  /// no more than one goes.
+  void measure(const Hierarchy& surface, FunctionRef<double(double distance, bool inside)> f,
+               Crew* crew);
+  /// What cannot be reached from the first corner over edges of the tetrahedra without coming
+  /// inside is made inside.
+  void fill_unreached();
+  const SparseField& field() const { return field_; }
+
+ private:
+  OutsideGrid() = default;
+  void measure_row(const Hierarchy& surface, FunctionRef<double(double, bool)> f, int y, int z);
+  double& at(const std::array<int, 3>& node) {
+    constexpr int edge = SparseField::edge;
+    const auto brick =
+        size_t((node[0] / edge * bricks_[1] + node[1] / edge) * bricks_[2] + node[2] / edge);
+    return field_.bricks[brick]
+        .value[size_t((node[2] % edge * edge + node[1] % edge) * edge + node[0] % edge)];
+  }
+  size_t number(const std::array<int, 3>& node) const {
+    return (size_t(node[2]) * size_t(nodes_[1]) + size_t(node[1])) * size_t(nodes_[0]) +
+           size_t(node[0]);
+  }
+
+  SparseField field_;  ///< with all bricks of the box
+  std::array<int, 3> bricks_{}, nodes_{};
+};
+
+}  // namespace tumble
