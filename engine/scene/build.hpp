@@ -35,10 +35,10 @@ struct BuiltScene {
   std::vector<std::string> warnings;
 };
 
-/// Makes the world that a description describes. `extras` gives threads and log; its settings are
-/// the scene's. Shapes may be shared with other worlds.
-/// Errors: everything that validate() finds, missing or unusable mesh files, bodies that the world
-/// refuses; all of them at once in `faults` when given, and as lines of the error.
+/// Makes the world of a description. `extras` provides threads and log; its settings are replaced
+/// by the scene's. Shapes may be shared with other worlds. Errors: everything that validate()
+/// finds, missing or unusable mesh files, bodies that the world refuses; all of them in `faults` if
+/// given, and as lines of the error.
 Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras = {},
                                std::shared_ptr<ShapeStore> shapes = nullptr,
                                std::vector<Fault>* faults = nullptr);

@@ -13,8 +13,8 @@ struct SceneCheck {
   size_t particles = 0;
 };
 
-/// Reads, validates and builds a scene (by name or path), robot or mesh file, and tells everything
-/// that is wrong.
+/// Reads, validates and builds a scene (by name or path), robot or mesh file, and reports
+/// everything that is wrong.
 SceneCheck check_scene(const std::string& name_or_path, const ReadOptions& options = {});
 
 }  // namespace tumble

@@ -20,15 +20,15 @@ namespace tumble {
 
 struct JsonNode;
 
-/// Where a description was read from; gives faults their lines and assets their folder.
+/// Source of a description; provides lines for faults, and the folder of assets.
 struct SceneSource {
   std::string file;                      ///< as the caller named it
   std::filesystem::path folder;          ///< of the file
   std::shared_ptr<const JsonNode> tree;  ///< the file with overrides applied
 };
 
-/// Everything that a scene file says. Its keys, units, ranges and docs are declared once, in
-/// parameters(); the reader, the writer, the schema and the tables of documentation follow it.
+/// The content of a scene file. Its keys, units, ranges and docs are declared once, in
+/// parameters(), which the reader, the writer, the schema and the tables of documentation use.
 struct SceneDescription {
   static constexpr int version = 1;
   int tumble_scene = version;
@@ -43,7 +43,7 @@ struct SceneDescription {
   NamedList<MeshDescription> meshes;
   NamedList<BodyDescription> bodies;
   NamedList<JointDescription> joints;
-  /// None in what read_scene() gives: there, their bodies and joints stand in their place.
+  /// Empty in the result of read_scene(), in which robots are replaced by their bodies and joints.
   NamedList<RobotDescription> robots;
   NamedList<ForceDescription> forces;
   NamedList<ParticleSystemDescription> particles;

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// One thing wrong with a scene: what, and exactly where.
+/// A fault in a scene: what is wrong, and exactly where.
 struct Fault {
   std::string file;  ///< as the caller named it; empty for scenes made by code
   int line = 0;      ///< 1-based; 0 when it does not come from a line (an override, a whole file)
@@ -18,11 +18,11 @@ struct Fault {
   std::string text() const;
 };
 
-/// Collects faults; a place that already has one gets no second.
+/// Collects faults; only the first at each path is kept.
 class FaultList {
  public:
   void add(Fault fault);
-  /// There is a fault at this path, above it or below it.
+  /// Whether there is a fault at this path, above it or below it.
   bool covers(std::string_view path) const;
   bool empty() const { return faults_.empty(); }
   /// In the order of the file.

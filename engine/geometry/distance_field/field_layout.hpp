@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-/// Where the nodes, cells and blocks of a distance field are. Nodes stand `cell` apart; a block is
-/// 8 x 8 x 8 cells and keeps its 9 x 9 x 9 nodes, those on its faces as its neighbours do, so that
-/// a query reads one block.
+/// Positions of the nodes, cells and blocks of a distance field. Nodes are `cell` apart; a block is
+/// 8 x 8 x 8 cells and stores its 9 x 9 x 9 nodes, duplicating those on faces shared with
+/// neighbours, so that a query reads one block.
 struct FieldLayout {
   static constexpr int cells_along = 8, nodes_along = cells_along + 1;
   static constexpr size_t nodes_of_block = size_t{nodes_along} * nodes_along * nodes_along;
@@ -37,7 +37,7 @@ struct FieldLayout {
   static size_t node_in_block(int x, int y, int z) {
     return size_t((z * nodes_along + y) * nodes_along + x);
   }
-  /// Along one axis [m].
+  /// Coordinate of a node along one axis [m].
   double at(int axis, int node) const { return origin[axis] + cell * node; }
   Vec3 node(int x, int y, int z) const { return {at(0, x), at(1, y), at(2, z)}; }
   Aabb box() const {

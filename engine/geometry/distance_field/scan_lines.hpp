@@ -9,12 +9,11 @@ namespace tumble {
 
 class Crew;
 
-/// Where the surface crosses rows of nodes along x: the nodes before `node` have the crossing ahead
-/// of them.
+/// A crossing of the surface with a row of nodes along x: it is ahead of the nodes before `node`.
 struct RowCrossing {
   uint32_t row;
   int32_t node;
-  int32_t turns;  ///< what it adds to the winding number of those nodes: 1 or -1
+  int32_t turns;  ///< contribution to the winding number of those nodes: 1 or -1
 };
 
 /// The crossings of all rows of a grid with a closed mesh, exactly as ray_crossing() decides them.
@@ -22,11 +21,11 @@ class ScanLines {
  public:
   ScanLines(const TriangleMesh& mesh, const FieldLayout& layout, Crew* crew);
 
-  /// Crossings of a row, by rising node.
+  /// Crossings of a row, in the order of their nodes.
   std::span<const RowCrossing> row(int y, int z) const;
   /// Winding numbers of `count` nodes of a row, `step` apart.
   void winding(int y, int z, int first, int count, int step, int* out) const;
-  /// Whether the numbers of crossings ahead of these nodes are odd.
+  /// Whether the number of crossings ahead of each of these nodes is odd.
   void parity(int y, int z, int first, int count, int step, bool* out) const;
 
  private:

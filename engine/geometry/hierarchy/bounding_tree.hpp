@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// Binary tree of bounding volumes over the triangles of a mesh, flat in depth-first order. `Kind`
-/// says what the volumes are; division, traversal and decisions are the same for all (README).
+/// Binary tree of bounding volumes over the triangles of a mesh, stored in depth-first order.
+/// `Kind` defines the volumes; division, traversal and decisions are the same for all (README).
 template <class Kind>
 class BoundingTree final : public Hierarchy {
  public:
@@ -43,14 +43,15 @@ class BoundingTree final : public Hierarchy {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   std::span<const uint32_t> triangle_order() const override { return order_; }
-  /// Volumes are given about this point of the mesh's frame.
+  /// Origin of the volumes, in the mesh's frame.
   const Vec3& origin() const { return origin_; }
   const Kind& kind() const { return kind_; }
-  /// By which of two nodes to descend first.
+  /// Of two nodes the one of greater size is descended into first.
   static float size_of(const Node& n) { return Kind::size_of(n); }
   /// Diagonal of the mesh's box [m].
   double size() const { return bounds_.extent().norm(); }
-  /// How far a volume may miss a point by rounding [m]: of coordinates about the origin.
+  /// Bound of the rounding error by which a volume may miss a point [m], from coordinates about the
+  /// origin.
   double slack() const { return 1e-14 * (size() + origin_.norm()); }
 
  private:
@@ -63,13 +64,13 @@ class BoundingTree final : public Hierarchy {
   Kind kind_;
 };
 
-/// Places in the triangle order that each node covers: [first, last).
+/// Range of positions in the triangle order that a node covers: [first, last).
 struct NodeRange {
   uint32_t first, last;
 };
 
-/// The children of a node are numbered after it: walking backwards meets them before their parent.
-/// `leaf(i, range)` and `inner(i, range)` are called for every node, children first.
+/// The children of a node have greater indices than the node: iterating backwards visits them
+/// before their parent. Calls `leaf(i, range)` or `inner(i, range)` for every node, children first.
 template <class Nodes, class Leaf, class Inner>
 void fit_upwards(const Nodes& nodes, const Leaf& leaf, const Inner& inner) {
   std::vector<NodeRange> done;  // of the finished subtrees that await their parent, nearest last

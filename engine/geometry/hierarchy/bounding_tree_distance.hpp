@@ -5,11 +5,11 @@
 
 #include <limits>
 
-// The distance of two meshes: nearest volumes first (Quinlan 1994), those further than the best
-// pair of triangles left out.
+// The distance of two meshes: nearest volumes first (Quinlan 1994), pruning those farther apart
+// than the best pair of triangles.
 namespace tumble {
 
-/// Middle and half width of a volume's shadow along unit vector n.
+/// Middle and half width of a volume's projection on unit vector n.
 struct Shadow {
   float middle, half;
 };
@@ -33,9 +33,9 @@ inline Shadow shadow(const SphereVolume& v, Float4 n) {
   return {dot3(Float4::load(v.centre.data()), n), v.radius};
 }
 
-/// Lower bounds of the distance of two volumes by their shadows: along the line of their centres,
-/// which is tight for volumes that are small beside their distance, and along the direction in
-/// which the best pair of triangles so far lies apart, than which none is tighter near the answer.
+/// Lower bounds of the distance of two volumes by their projections: on the line of their centres,
+/// which is tight for volumes that are small relative to their distance, and on the direction of
+/// the best pair of triangles so far, which is the tightest near the result.
 class GapDirection {
  public:
   template <class Tree>
@@ -54,7 +54,7 @@ class GapDirection {
     known_ = true;
   }
   bool known() const { return known_; }
-  /// Square of the distance at least, by the line of the centres.
+  /// Lower bound of the squared distance by the line of the centres.
   template <class Volume>
   float squared_gap(const Volume& a, const Volume& b) const {
     const Float4 d = columns_.combine(centre_of(b)) + offset_a_ - centre_of(a);
@@ -65,7 +65,7 @@ class GapDirection {
                       float(slack_) - 1e-6f * length;
     return gap > 0 ? gap * gap : 0;
   }
-  /// The distance is at least this.
+  /// Lower bound of the distance.
   template <class Volume>
   float gap(const Volume& a, const Volume& b) const {
     const Shadow sa = shadow(a, on_a_), sb = shadow(b, on_b_);
@@ -93,7 +93,7 @@ class NearestTriangles {
   const Vec3& direction() const { return direction_; }
   double distance() const { return distance_; }
 
-  /// True when the pair is the nearest so far.
+  /// Returns true if the pair is the nearest so far.
   bool offer(TriangleIds ids, const TriangleCorners& a, const TriangleCorners& b) {
     if (further_along(a, b) || further_boxes(a, b)) return false;
     const TrianglePair near = closest_triangle_triangle(a, b);
@@ -114,7 +114,7 @@ class NearestTriangles {
   }
 
  private:
-  /// Shadows along direction() are further apart than the limit, beyond any rounding.
+  /// Whether projections on direction() are farther apart than the limit, beyond rounding.
   bool further_along(const TriangleCorners& a, const TriangleCorners& b) const {
     const double high =
         std::max({direction_.dot(a[0]), direction_.dot(a[1]), direction_.dot(a[2])});
@@ -123,7 +123,7 @@ class NearestTriangles {
     return low - high > distance_ * (1 + 1e-12) + rounding;
   }
 
-  /// The triangles' boxes are further apart than the limit, beyond any rounding.
+  /// Whether the triangles' boxes are farther apart than the limit, beyond rounding.
   bool further_boxes(const TriangleCorners& a, const TriangleCorners& b) const {
     double square = 0;
     for (int k = 0; k < 3; ++k) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-// Two trees at once, or one with itself: one traversal, to which a kind gives the test of two
-// volumes (PairTest) and a query what happens at two leaves.
+// Simultaneous traversal of two trees, or of one with itself: a kind defines the test of two
+// volumes (PairTest), and a query what to do for two leaves.
 namespace tumble {
 
 /// Visits every pair of leaves whose volumes `apart(a, b)` does not separate. `a` is the same tree
@@ -57,7 +57,7 @@ class LeafPair {
  public:
   LeafPair(const Tree& a, const Tree& b, const RelativePose& b_in_a) : a_(a), b_(b), at_(b_in_a) {}
 
-  /// Calls visit(ids, corners of a, corners of b) until it returns false; false then.
+  /// Calls visit(ids, corners of a, corners of b) until it returns false; then returns false.
   template <class Visit>
   bool each(const typename Tree::Node& na, const typename Tree::Node& nb, const Visit& visit) {
     if (held_ != &nb) {
@@ -83,7 +83,7 @@ class LeafPair {
   std::array<TriangleCorners, TreeLayout::max_leaf_triangles> other_;
 };
 
-/// Adds up what a query did.
+/// Adds the cost of a query to the statistics.
 class PairCost {
  public:
   explicit PairCost(HierarchyStatistics* out) : out_(out) {}

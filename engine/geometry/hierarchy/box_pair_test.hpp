@@ -5,7 +5,8 @@
 /// Single precision: the margin has to allow for rounding.
 namespace tumble {
 
-/// How box B lies in the axes of box A, by rows (row i: A's axis i on B's axes) and by columns.
+/// Rotation of box B relative to the axes of box A, by rows (row i: A's axis i in B's axes) and by
+/// columns.
 struct BoxTurn {
   Rows3 rows, columns, abs_rows, abs_columns;
 
@@ -15,8 +16,8 @@ struct BoxTurn {
   }
 };
 
-/// Two boxes as seen from A: `offset` from A's centre to B's on A's axes, half extents on their own
-/// axes, and half of the segment that B is swept along, on A's axes. Fourth lanes 0.
+/// Two boxes seen from A: `offset` from A's centre to B's in A's axes, half extents in their own
+/// axes, and half of the segment that B is swept along, in A's axes. Fourth lanes are 0.
 struct BoxPair {
   Float4 offset, half_a, half_b, half_sweep;
 };
@@ -59,8 +60,8 @@ bool boxes_apart(const BoxTurn& turn, const BoxPair& p, Float4 margin) {
          edges_part<2, swept>(turn, p, margin);
 }
 
-/// Square of a lower bound of the distance of the boxes: the distance of either from the other's
-/// box in its own axes, less `slack`.
+/// Square of a lower bound of the distance of the boxes: the distance of each from the other's box
+/// in that one's axes, less `slack`.
 inline float box_squared_distance(const BoxTurn& turn, const BoxPair& p, Float4 slack) {
   const auto square = [&](Float4 gap) {
     const Float4 g = max(gap - slack, Float4()).xyz();

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// No structure at all: looks at every triangle. The reference for the other kinds.
+/// No structure: tests every triangle. The reference for the other kinds.
 class BruteForceHierarchy final : public Hierarchy {
  public:
   explicit BruteForceHierarchy(std::shared_ptr<const TriangleMesh> mesh, const TreeOptions& = {})

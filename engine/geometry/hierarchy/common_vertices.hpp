@@ -17,12 +17,12 @@ inline bool any_vertex(const Triangle& t) {
   return t[0] != no_index || t[1] != no_index || t[2] != no_index;
 }
 
-/// Of each node of a tree the vertices that all its triangles have in common. Two nodes with a
-/// common one hold neighbours only, which spares a fan of n triangles the n^2 pairs that all meet
-/// in its tip. Empty for meshes without large fans, which gain nothing.
+/// For each node of a tree the vertices that all its triangles share. Two nodes with such a vertex
+/// in common have neighbouring triangles only, which saves a fan of n triangles n^2 pairs that all
+/// meet at its tip. Empty for meshes without large fans, which would not benefit.
 class CommonVertices {
  public:
-  /// Fans of more triangles count.
+  /// Only fans of more triangles count as large.
   static constexpr uint32_t large_fan = 32;
 
   template <class Nodes>
@@ -47,7 +47,7 @@ class CommonVertices {
         });
   }
 
-  /// Whether every triangle of node i shares a vertex with every one of node j for this reason.
+  /// Whether, by a common vertex, every triangle of node i is a neighbour of every one of node j.
   bool neighbours(uint32_t i, uint32_t j) const {
     return !common_.empty() && any_vertex(common_vertices(common_[i], common_[j]));
   }

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// The points that reach furthest along seven directions both ways: of a set that is divided, those
-/// of the parts suffice.
+/// The extreme points along seven directions, both ways. Those of a union follow from those of its
+/// parts.
 class ExtremePoints {
  public:
   static constexpr size_t directions = 7;
@@ -36,7 +36,7 @@ struct FittedBox {
 /// least area about these points. Rows are the axes. Identity for points that are all equal.
 Rows3 tight_axes(const ExtremePoints& extreme);
 
-/// The box along `axes` that holds all points, or the axis-aligned one if that has less area.
+/// The box along `axes` that contains all points, or the axis-aligned one if that has less area.
 FittedBox fit_box(std::span<const Float4> points, const Rows3& axes);
 
 }  // namespace tumble

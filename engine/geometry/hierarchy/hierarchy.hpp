@@ -14,7 +14,7 @@ namespace tumble {
 
 /// First hit of a ray with a mesh.
 struct MeshRayHit {
-  double t = 0;  ///< in lengths of the ray's direction
+  double t = 0;  ///< in units of the length of the ray's direction
   uint32_t triangle = no_index;
   Vec3 barycentric = Vec3::Zero();
   bool front = true;  ///< the ray meets the triangle's outer side
@@ -29,7 +29,7 @@ struct MeshPoint {
   double squared_distance = 0;  ///< [m^2]
 };
 
-/// Where two meshes come nearest; everything in the first mesh's frame.
+/// The nearest points of two meshes, in the first mesh's frame.
 struct MeshDistance {
   TriangleIds triangles{no_index, no_index};
   Vec3 on_a = Vec3::Zero();
@@ -37,13 +37,13 @@ struct MeshDistance {
   double squared_distance = 0;  ///< [m^2]
 };
 
-/// What a query cost.
+/// Cost of a query.
 struct HierarchyStatistics {
   size_t node_tests = 0;
   size_t triangle_tests = 0;
 };
 
-/// Which triangles of two meshes may meet while both move.
+/// A query for the triangles of two moving meshes that may come near each other.
 struct SweptQuery {
   Pose other_pose;                ///< of the other mesh at the start, in this mesh's frame
   MotionBound own, other_motion;  ///< both in this mesh's frame as it stands at the start
@@ -54,10 +54,9 @@ struct TreeOptions {
   TreeBuilder builder = TreeBuilder::surface_area;
 };
 
-/// Finds triangles of one mesh quickly. Every kind gives exactly the same answers, brute force
-/// included, because what is reported is decided triangle by triangle by functions that all kinds
-/// share (triangle_decisions.hpp); nodes only leave out what those would refuse. So switching the
-/// kind changes no result.
+/// Finds triangles of one mesh quickly. All kinds, brute force included, give exactly the same
+/// results, because results are decided triangle by triangle by functions that all kinds share
+/// (triangle_decisions.hpp); nodes only exclude triangles that those would reject.
 ///
 /// Built over a mesh that passed validate(), or an empty one; it shares ownership of it. Queries
 /// are const and may run in many threads at once. Poses map the other mesh's frame to this one's.
@@ -67,16 +66,16 @@ class Hierarchy {
   virtual ~Hierarchy() = default;
 
   virtual std::string_view name() const = 0;
-  /// Memory of the structure without the mesh [bytes].
+  /// Memory of the structure, without the mesh [bytes].
   virtual size_t state_bytes() const = 0;
   /// Levels below the root; 0 without nodes.
   virtual int depth() const { return 0; }
   virtual size_t node_count() const { return 0; }
-  /// Shows the nodes to `visit`, parents before children and first children first; below a node for
+  /// Calls `visit` for the nodes in depth-first order, parents before children; below a node for
   /// which it returns false nothing is visited. The bound is overwritten after the call, its
   /// triangles are not.
   virtual void visit_nodes(const std::function<bool(const NodeBound&)>& visit) const = 0;
-  /// The triangles in the order of the leaves; those of any node stand together. Empty without
+  /// The triangles in the order of the leaves; those of any node are contiguous. Empty without
   /// nodes.
   virtual std::span<const uint32_t> triangle_order() const { return {}; }
 
@@ -84,9 +83,9 @@ class Hierarchy {
   const std::shared_ptr<const TriangleMesh>& shared_mesh() const { return mesh_; }
   const Aabb& bounds() const { return bounds_; }
 
-  /// Follows a deformed mesh: same triangles, new places of the vertices. In O(n) to O(n log n),
-  /// keeping the division into nodes; answers are those of a new hierarchy, only slower if much has
-  /// moved. Error, and no change, when the triangles differ.
+  /// Adapts to a deformed mesh with the same triangles and new positions of vertices, in O(n) to
+  /// O(n log n), keeping the division into nodes; results are those of a new hierarchy, but slower
+  /// if much has moved. Error, and no change, if the triangles differ.
   Status refit(std::shared_ptr<const TriangleMesh> mesh);
 
   /// Appends the triangles that have a point in common with `box`, ascending.
@@ -101,7 +100,7 @@ class Hierarchy {
   /// being mapped by the pose and rounded to double.
   virtual void pairs(const Hierarchy& other, const Pose& other_pose, double margin,
                      std::vector<TriangleIds>& out, HierarchyStatistics* cost = nullptr) const = 0;
-  /// Whether pairs() with margin 0 finds any; stops at the first.
+  /// Whether pairs() with margin 0 would find any; stops at the first.
   virtual bool intersects(const Hierarchy& other, const Pose& other_pose,
                           HierarchyStatistics* cost = nullptr) const = 0;
   /// Appends the pairs a < b of this mesh's own triangles at most `margin` [m] apart, ascending.
@@ -113,22 +112,22 @@ class Hierarchy {
   virtual std::optional<MeshDistance> distance(const Hierarchy& other, const Pose& other_pose,
                                                double max_distance,
                                                HierarchyStatistics* cost = nullptr) const = 0;
-  /// Appends, ascending, the pairs of which it cannot be excluded by their bounds of motion that
-  /// they come within the margin of each other at any time of the motion (swept_triangles_near).
+  /// Appends, ascending, the pairs that by their motion bounds may come within the margin of each
+  /// other at some time of the motion (swept_triangles_near).
   virtual void swept_pairs(const Hierarchy& other, const SweptQuery& query,
                            std::vector<TriangleIds>& out,
                            HierarchyStatistics* cost = nullptr) const = 0;
 
  protected:
   explicit Hierarchy(std::shared_ptr<const TriangleMesh> mesh);
-  /// Adapts to mesh_ and bounds_, which have just changed.
+  /// Updates the nodes after a change of mesh_ and bounds_.
   virtual void refit_nodes() = 0;
 
   std::shared_ptr<const TriangleMesh> mesh_;
   Aabb bounds_;
 };
 
-/// One kind of hierarchy: its name in files and panels, and how to make one.
+/// A kind of hierarchy: its name in files and panels, and how to make one.
 struct HierarchyKind {
   std::string_view name;
   std::string_view description;

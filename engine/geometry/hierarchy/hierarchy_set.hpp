@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The hierarchies of one mesh, one per kind, each built when it is first asked for. Thread-safe.
+/// The hierarchies of one mesh, one per kind, each built on first use. Thread-safe.
 class HierarchySet {
  public:
   explicit HierarchySet(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}

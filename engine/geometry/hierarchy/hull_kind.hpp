@@ -11,11 +11,11 @@ struct HullVolume : AabbVolume {
   uint32_t point_count;
 };
 
-/// Rounded convex hulls. A node of few vertices keeps all of them and a radius near zero; a larger
-/// one keeps those that reach furthest along 26 directions, and the radius is the distance of the
-/// vertex that lies furthest outside their hull, so that the volume holds all.
+/// Rounded convex hulls. A node of few vertices keeps all of them, with a radius near zero; a
+/// larger one keeps those that are extreme along 26 directions, and its radius is the distance of
+/// the vertex farthest outside their hull, so that the volume contains all.
 ///
-/// Boxes answer rays, points and boxes; hulls part pairs of nodes that boxes leave together.
+/// Boxes are used for rays, points and boxes; hulls separate pairs of nodes that boxes cannot.
 class HullKind {
  public:
   using Volume = HullVolume;

@@ -9,18 +9,18 @@
 
 namespace tumble {
 
-/// What a ray's test of a volume gives when it misses.
+/// Result of a ray's test of a volume that it misses.
 constexpr float no_entry = std::numeric_limits<float>::infinity();
 
-/// A ray in single precision that meets at least the boxes that the ray meets: it starts near the
-/// mesh, so that a distant origin costs no accuracy, and boxes are enlarged for what rounding may
-/// do. Times are in units of the direction's largest component, from that start.
+/// A ray in single precision whose tests are conservative: it starts near the mesh, so that a
+/// distant origin costs no accuracy, and boxes are enlarged by bounds of the rounding errors. Times
+/// are in units of the direction's largest component, from that start.
 class RaySlabs {
  public:
   /// The mesh lies within `size` of `origin`, about which boxes are given; `slack` is to be added
   /// to their rounding [m].
   RaySlabs(const Ray& ray, const Vec3& origin, double size, double slack) {
-    // Cheap upper bounds of lengths do where only allowances depend on them.
+    // Cheap upper bounds of lengths suffice for allowances.
     const auto length = [](const Vec3& v) {
       return std::fabs(v.x()) + std::fabs(v.y()) + std::fabs(v.z());
     };
@@ -36,11 +36,11 @@ class RaySlabs {
     // Rounding of start and of points along the ray, relative to how far they may be.
     pad_ = float(1.01 * slack + 1e-6 * reach + 1e-14 * length(o));
     direction_ = Float4::round(d.x(), d.y(), d.z());
-    // A direction in single precision strays by 1e-7 of the way, which within the mesh is a few
-    // sizes.
+    // A direction in single precision deviates by 1e-7 of the distance travelled, which within the
+    // mesh is a few sizes.
     turned_pad_ = pad_ + float(4e-6 * reach);
     start_ = Float4::round(start.x(), start.y(), start.z());
-    // Parallel to a side: it is crossed far outside or never.
+    // For a ray parallel to a side, the crossing is far outside or never.
     const __m128 sign = _mm_and_ps(direction_.v, _mm_set1_ps(-0.0f));
     const Float4 steep = tumble::max(abs(direction_), Float4(1e-18f));
     inverse_ = _mm_or_ps(_mm_div_ps(_mm_set1_ps(1), steep.v), sign);
@@ -48,7 +48,7 @@ class RaySlabs {
     high_ = start_ - Float4(pad_);
   }
 
-  /// Entry into the box, or no_entry. Fourth lanes are not looked at.
+  /// Time of entry into the box, or no_entry. Fourth lanes are ignored.
   float entry(Float4 min, Float4 max) const {
     return entry((min - low_) * inverse_, (max - high_) * inverse_, limit_);
   }
@@ -68,7 +68,7 @@ class RaySlabs {
   class Four {
    public:
     explicit Four(const RaySlabs& ray) {
-      // Without branches, which random rays would make the processor guess wrongly.
+      // Without branches, which would be mispredicted for random rays.
       const Float4 inverse = ray.inverse_;
       const __m128 backward = _mm_cmplt_ps(inverse.v, _mm_setzero_ps());
       const Float4 entering = chosen(backward, ray.high_, ray.low_);
@@ -106,7 +106,7 @@ class RaySlabs {
     std::array<size_t, 3> near_, far_;  ///< places of the bounds that the ray enters and leaves
   };
 
-  /// Volumes entered after time t of the ray are of no interest any more.
+  /// Volumes entered after time t of the ray are ignored from now on.
   void shorten(double t) {
     const double local = t * scale_ - advance_;
     limit_ =

@@ -2,7 +2,7 @@
 #include "engine/geometry/constructions/closest_points.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
-/// What every kind of hierarchy reports is decided here, triangle by triangle.
+/// The results of every kind of hierarchy are decided by these functions, triangle by triangle.
 namespace tumble {
 
 /// A triangle of one mesh and one of another (or of the same).
@@ -14,7 +14,7 @@ struct TriangleIds {
 
 using TriangleCorners = std::array<Vec3, 3>;
 
-/// A pose with its rotation as a matrix: where one mesh lies in another's frame.
+/// The pose of one mesh in another's frame, with its rotation as a matrix.
 struct RelativePose {
   Mat3 R = Mat3::Identity();
   Vec3 x = Vec3::Zero();
@@ -53,18 +53,18 @@ struct MotionBound {
   Vec3 centre = Vec3::Zero();
   double angle = 0;  ///< [rad], not negative
 
-  /// How far rotation takes a point at most, per distance from the centre: the chord
-  /// 2 sin(angle / 2), bounded by the arc and by the diameter.
+  /// Bound of a point's displacement by rotation, per distance from the centre: the chord 2
+  /// sin(angle / 2), bounded by the arc and by the diameter.
   double chord() const { return angle < 2 ? angle : 2; }
 };
 
-/// Whether triangle a and triangle b, swept along `translation` (b's less a's), come within `reach`
-/// of each other; `reach` is the margin plus how far rotation may take the corners of both. Decided
-/// by the distance of a from the prism that b sweeps; in doubt yes.
+/// Whether triangle a and triangle b, swept along `translation` (b's minus a's), come within
+/// `reach` of each other; `reach` is the margin plus the bounds of the displacements of both by
+/// rotation. Decided by the distance of a from the prism that b sweeps; true if in doubt.
 bool swept_triangles_near(const TriangleCorners& a, const TriangleCorners& b,
                           const Vec3& translation, double reach);
 
-/// How far rotation may take the points of a triangle.
+/// Bound of the displacement of a triangle's points by rotation.
 double turned_reach(const TriangleCorners& t, const MotionBound& motion);
 
 /// Whether the bounding boxes of triangle `a` and triangle `b`, the latter mapped by `pose`, are

@@ -3,23 +3,23 @@
 
 namespace tumble {
 
-/// A test of two nodes on the way down two trees.
+/// A test of two nodes during the simultaneous descent of two trees.
 struct DescentTest {
-  uint32_t a = 0, b = 0;      ///< nodes, in the order in which visit_nodes() shows them
-  bool apart = false;         ///< what lies below the two was left out
-  uint32_t leaf_tests = 0;    ///< pairs of triangles that were tested here: both are leaves
+  uint32_t a = 0, b = 0;      ///< nodes, in the order of visit_nodes()
+  bool apart = false;         ///< the pair was pruned
+  uint32_t leaf_tests = 0;    ///< pairs of triangles that were tested, if both are leaves
   uint32_t leaves_found = 0;  ///< of them, those that are near
 };
 
-/// The way of a descent, and what it came to.
+/// The tests of a descent, and its result.
 struct WatchedDescent {
   std::vector<DescentTest> tests;
   std::vector<TriangleIds> found;  ///< ascending
-  bool whole = true;               ///< false: there were more tests or finds than were asked for
+  bool whole = true;               ///< false: stopped at the limit of tests or of pairs found
 };
 
-/// BoundingTree::pairs() of two trees of a kind by the same traversal and the same tests, with the
-/// way of the descent. It is broken off at so many tests of volumes, or pairs of triangles found.
+/// BoundingTree::pairs() of two trees of a kind by the same traversal and the same tests, with a
+/// record of the tests. It stops at a limit of tests of volumes, or of pairs of triangles found.
 template <class Kind>
 WatchedDescent watch_pairs(const BoundingTree<Kind>& a, const BoundingTree<Kind>& b,
                            const Pose& b_in_a, double margin, size_t most) {
@@ -32,7 +32,7 @@ WatchedDescent watch_pairs(const BoundingTree<Kind>& a, const BoundingTree<Kind>
   traverse<false>(
       a, b,
       [&](const Node& na, const Node& nb) {
-        // Once broken off nothing goes further down: what waits is emptied without tests.
+        // After the stop nothing is descended into: the waiting pairs are removed without tests.
         if (out.tests.size() >= most) out.whole = false;
         if (!out.whole) return true;
         const bool apart = test.apart(na, nb);

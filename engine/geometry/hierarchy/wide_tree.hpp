@@ -16,7 +16,7 @@ namespace tumble {
 /// triangle for its vertices in the order of the leaves, to save a cache miss.
 class WideTree {
  public:
-  /// Four children; a box that is missing is empty and met by nothing.
+  /// Four children; a missing child has an empty box that nothing meets.
   struct alignas(64) Node {
     std::array<std::array<float, 4>, 6> bounds;  ///< lowest x, y, z, then highest
     std::array<uint32_t, 4> child;               ///< number of a node, or a leaf
@@ -25,21 +25,21 @@ class WideTree {
   WideTree(const std::vector<TreeNode<AabbVolume>>& nodes, const TriangleMesh& mesh,
            const std::vector<uint32_t>& order);
 
-  /// Calls leaf(first place, count) for the leaves that the ray may enter, roughly from near to
-  /// far, unless the slabs have been shortened to before them.
+  /// Calls leaf(first position, count) for the leaves that the ray may enter, roughly from near to
+  /// far, except those beyond the limit that the slabs have by then.
   template <class Leaf>
   void walk(const RaySlabs& slabs, const Leaf& leaf) const;
 
-  /// The vertices of the triangle at a place of the order.
+  /// The vertices of the triangle at a position of the order.
   const Triangle& triangle(uint32_t place) const { return triangles_[place]; }
   size_t bytes() const {
     return nodes_.size() * sizeof(Node) + triangles_.size() * sizeof(Triangle);
   }
 
  private:
-  /// A child and where the ray enters it, as one number that is compared without a branch: the bits
-  /// of the entry, which is not negative (-0 comes out as far: visited late, not left out), above
-  /// those of the child.
+  /// A child and the ray's entry into it, packed into one number that is compared without branches:
+  /// the bits of the entry, which is not negative (-0 compares as far: visited late, but not
+  /// omitted), above those of the child.
   using Entry = uint64_t;
   static Entry entry(uint32_t child, float at) {
     return uint64_t(std::bit_cast<uint32_t>(at)) << 32 | child;
@@ -62,7 +62,7 @@ class WideTree {
   std::vector<Triangle> triangles_;
 };
 
-/// A WideTree that is made when it is first asked for; from many threads at once is allowed.
+/// A WideTree that is built on first use; thread-safe.
 class LazyWideTree {
  public:
   LazyWideTree() = default;
@@ -74,7 +74,7 @@ class LazyWideTree {
     if (const WideTree* tree = made_.load(std::memory_order_acquire)) return *tree;
     return make(nodes, mesh, order);
   }
-  /// Not while others use it.
+  /// Must not be called while others use it.
   void forget() {
     made_.store(nullptr);
     tree_.reset();
@@ -116,7 +116,7 @@ void WideTree::walk(const RaySlabs& slabs, const Leaf& leaf) const {
         at = n.child[k];
         hits &= hits - 1;
         if (hits == 0) continue;  // one child only
-        // The nearest is next, the others wait, the furthest at the bottom.
+        // The nearest is next; the others are pushed, the furthest first.
         const auto in = entries.array();
         Entry nearest = entry(at, in[k]);
         const size_t bottom = size;

@@ -4,11 +4,11 @@
 
 namespace tumble {
 
-/// The surface between the nodes where a field is negative and the others, triangles
-/// counter-clockwise seen from where it is not negative: marching tetrahedra (Doi and Koide, "An
-/// efficient method of triangulating equi-valued surfaces by using tetrahedral cells", 1991) on
-/// Kuhn's cut of every cube into the six tetrahedra about its diagonal, which fit across faces. In
-/// a tetrahedron no case is ambiguous.
+/// The surface that separates the nodes where a field is negative from the others; triangles are
+/// counter-clockwise seen from the side that is not negative. Marching tetrahedra (Doi and Koide,
+/// "An efficient method of triangulating equi-valued surfaces by using tetrahedral cells", 1991) on
+/// Kuhn's division of every cube into the six tetrahedra around its diagonal, which match across
+/// faces. A tetrahedron has no ambiguous case.
 ///
 /// For every input the mesh is a closed oriented 2-manifold: every edge has two triangles that run
 /// it in opposite directions, and the triangles about a vertex form one fan. Vertices stand where

@@ -9,10 +9,10 @@
 
 namespace tumble {
 
-/// Place of a brick, or of a node, along x, y, z.
+/// Indices of a brick, or of a node, along x, y, z.
 using GridIndex = std::array<int32_t, 3>;
 
-/// A scalar function on the nodes of a cubic grid, kept in bricks of 8 x 8 x 8 nodes where it is
+/// A scalar function on the nodes of a cubic grid, stored in bricks of 8 x 8 x 8 nodes where it is
 /// known; everywhere else it is `outside`. Negative is inside.
 struct SparseField {
   static constexpr int edge = 8;  ///< nodes along a brick

@@ -18,7 +18,7 @@ Error bad(std::string message, std::string cure = {}) {
   return {ErrorCode::invalid_argument, std::move(message), "lcp", std::move(cure)};
 }
 
-/// 0 for finite x, else NaN: sums of these vectorise, in any order.
+/// 0 if all x are finite, else NaN: such sums vectorise in any order.
 double not_finite(const double* x, Eigen::Index n) {
   double sum = 0;
   for (Eigen::Index i = 0; i < n; ++i) sum += x[i] * 0.0;

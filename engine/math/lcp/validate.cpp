@@ -14,7 +14,8 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// One unknown with bounds, in units in which A_ii is 1 and the unit of all is `unit`.
+/// Residuals of one unknown with bounds, in units in which A_ii is 1 and the largest term is
+/// `unit`.
 void judge(double z, double w, double lower, double upper, double unit, LcpResidual& out) {
   out.bounds = std::max({out.bounds, (lower - z) / unit, (z - upper) / unit});
   const double projected = std::clamp(z - w, lower, upper);
@@ -37,7 +38,7 @@ void judge(const ConeGroup& g, double a, std::array<double, 2> t, std::array<dou
       std::max(out.complementarity, std::min(move, 1.0) * (size(w[0], w[1]) / unit));
 }
 
-/// w = A z + b, and the unit of its terms; infinite when z or it is not finite.
+/// Computes w = A z + b; returns the largest term, infinite if it or z is not finite.
 double weigh(const LcpProblem& p, const VecX& z, const std::vector<double>& d, VecX& w) {
   const int n = p.size();
   w = p.b;

@@ -7,17 +7,17 @@
 
 namespace tumble {
 
-/// What was computed before, by the content of what it was computed from: a folder that several
-/// processes may use at once. A file appears whole or not at all under the hash of everything that
-/// decides what is in it, the version of the method too; one that is damaged, or another's, is as
-/// if it were not there. What cannot be read or written is as if there were no cache.
+/// Cache of computed results by the content of their input: a folder that several processes may use
+/// at once. A file is written atomically under the hash of everything that determines its content,
+/// including the version of the method; a damaged file, or one of another key, counts as missing.
+/// If the folder cannot be read or written, nothing is cached.
 class ContentCache {
  public:
   /// A folder of this name under tumble in $XDG_CACHE_HOME, or ~/.cache (XDG Base Directory
-  /// Specification); none where neither is known.
+  /// Specification); empty if neither is known.
   static std::filesystem::path usual_folder(std::string_view name);
 
-  /// An empty folder keeps nothing.
+  /// With an empty folder nothing is cached.
   ContentCache(std::filesystem::path folder, std::string extension)
       : folder_(std::move(folder)), extension_(std::move(extension)) {}
 

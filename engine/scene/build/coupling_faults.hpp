@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-/// What no motion fulfils of what couples the coordinates of joints: circles of couplings that do
-/// not come back to where they began, and motors of any strength that hold rates which couplings do
-/// not allow together. Path in the scene and sentence of each.
+/// Contradictions in the couplings of joint coordinates: cycles of couplings that are inconsistent,
+/// and motors of unlimited strength whose rates the couplings do not allow together. Path in the
+/// scene and message of each.
 std::vector<std::pair<std::string, std::string>> coupling_faults(const BuiltScene& built);
 
 }  // namespace tumble

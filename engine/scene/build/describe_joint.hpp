@@ -3,9 +3,10 @@
 
 namespace tumble {
 
-/// What joint_defs() made the coordinate's drive from, but for what only files know: a motor whose
-/// target is a course has the value of now, and what couples the coordinate is left out. `angle`:
-/// the coordinate is one (JointCoordinate::angle), its values in degrees.
+/// The description from which joint_defs() would make the coordinate's drive, without what only
+/// files have: a motor whose target is a course has its present value, and the coupling of the
+/// coordinate is left out. `angle`: the coordinate is an angle (JointCoordinate::angle), with
+/// values in degrees.
 DriveDescription describe_drive(const CoordinateDrive& drive, bool angle);
 
 }  // namespace tumble

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// Values of a scene that change nothing, because something else that it says leaves them no part:
-/// a sentence each with the path, the reason and the cure.
+/// Values of a scene that have no effect because of other values: a message for each, with path,
+/// reason and cure.
 std::vector<std::string> effect_warnings(const BuiltScene& built);
 
 }  // namespace tumble

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// Distance fields that were made before (content_cache.hpp).
+/// Cache of distance fields (content_cache.hpp).
 class FieldCache {
  public:
   FieldCache() : FieldCache(ContentCache::usual_folder("fields")) {}

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// Primitives that were fitted before (content_cache.hpp).
+/// Cache of fitted primitives (content_cache.hpp).
 class FitCache {
  public:
   FitCache() : FitCache(ContentCache::usual_folder("fits")) {}
@@ -14,7 +14,7 @@ class FitCache {
   /// The primitives of a mesh, the best first: from the cache, or made and put there. Errors are
   /// those of fit_primitives().
   Result<std::vector<FittedPrimitive>> fits(const std::shared_ptr<const TriangleMesh>& mesh) const;
-  /// The best of them.
+  /// The first of fits().
   Result<FittedPrimitive> fit(const std::shared_ptr<const TriangleMesh>& mesh) const;
 
  private:

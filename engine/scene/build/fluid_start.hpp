@@ -10,11 +10,11 @@ namespace tumble {
 
 class World;
 
-/// Takes the particles out of a fluid that would begin in bodies, or nearer to them than a quarter
-/// of their spacing, and says how many. `bodies` are those of the world, which has applied its
-/// commands. The error of a fluid that would fall for ever says how to hold it: no body is below or
-/// beside it, gravity pulls it, its particles have no end of life and no periodic box, and it may
-/// not fall (`may_fall`: something takes it away, such as a sink).
+/// Removes particles of a fluid that would start inside bodies, or nearer to them than a quarter of
+/// their spacing, and reports how many. `bodies` are those of the world, whose commands have been
+/// applied. Error, with a cure, for a fluid that would fall for ever: gravity acts on it, no body
+/// is below or beside it, its particles have no end of life and no periodic box, and nothing such
+/// as a sink removes it (`may_fall`).
 Status fit_fluid(const World& world, const std::map<std::string, BodyId, std::less<>>& bodies,
                  ParticleSystemDef& def, bool may_fall, std::vector<std::string>& warnings);
 

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// Joints that do not begin as they are to be: coordinates beyond their limits or off what couples
-/// them, and velocities of bodies that joints do not allow. Sentences that say by how much, and
-/// what the run does about it.
+/// Messages about joints that do not start consistently: coordinates beyond their limits or that
+/// violate couplings, and velocities of bodies that joints do not allow, with the amount, and how
+/// the run treats it.
 std::vector<std::string> joint_start_warnings(const BuiltScene& built);
 
 }  // namespace tumble

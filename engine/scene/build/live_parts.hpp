@@ -11,40 +11,42 @@
 
 namespace tumble {
 
-/// The parts of a scene, without its bodies: what a person adds and changes while the world runs.
-/// All that is not a part is left out.
+/// The parts of a scene, without its bodies and anything else: what a user can add and change while
+/// the world runs.
 SceneDescription parts_of(const SceneDescription& scene);
-/// Nothing when there is none of this name in this list ("emitters").
+/// Empty if this list ("emitters") has no part of this name.
 std::optional<PartDescription> find_part(const SceneDescription& parts, std::string_view list,
                                          std::string_view name);
-/// Adds it, or puts it in the place of the one of its name.
+/// Adds a part, or replaces the one of the same name.
 void put_part(SceneDescription& parts, const std::string& name, const PartDescription& part);
 void drop_part(SceneDescription& parts, std::string_view list, const std::string& name);
-/// `base` itself where nothing of this list has it, else "base_2", "base_3" ...
+/// `base` itself if no part of this list has that name, else "base_2", "base_3" ...
 std::string new_part_name(const SceneDescription& parts, std::string_view list,
                           const std::string& base);
 
-/// Makes parts in a live world from descriptions, with which a scene file would make the same. What
-/// they name is found by its name in the world. Emitters and forces cannot be asked for there,
-/// so that those made here, or by build_world(), are remembered: all that ever had a name, because
-/// the world may go back to a moment at which an earlier one was alive.
+/// Creates parts in a live world from descriptions, as a scene file would. What they name is found
+/// by name in the world. Emitters and forces have no names there, so those created here, or by
+/// build_world(), are remembered: all that ever had a name, since the world may go back to a moment
+/// at which an earlier one was alive.
 class LiveParts {
  public:
   LiveParts() = default;
-  /// Those that the scene has made.
+  /// Starts with the parts that the scene has created.
   explicit LiveParts(const BuiltScene& built);
 
-  /// "spring", "spring_2" ...: what no force of `parts` has, nor any that was ever made here.
+  /// "spring", "spring_2" ...: a name that no force of `parts` has, nor any that was ever created
+  /// here.
   std::string new_force_name(const SceneDescription& parts, const std::string& base) const;
-  /// A force that somebody else has made.
+  /// Remembers a force that was created elsewhere.
   void know(const std::string& name, ForceId id);
-  /// `parts` are all of the scene as they are afterwards, `name` among them; `before`, where it is
-  /// known, is what the world has of this name. A sensor that is changed begins anew, and so does a
-  /// particle system whose particles begin elsewhere or are tied in another way; what names it
-  /// follows. Everything else goes on. Error: the world refuses it, and is as before.
+  /// Creates or replaces a part. `parts` are all parts of the scene afterwards, including `name`;
+  /// `before`, if known, is the present part of this name. A changed sensor begins anew, and so
+  /// does a particle system whose particles start elsewhere or are connected differently;
+  /// references to it are updated. Everything else continues. Error: the world refuses it, and is
+  /// unchanged.
   Status set(World& world, const SceneDescription& parts, const std::string& name,
              const PartDescription& part, const PartDescription* before = nullptr);
-  /// False when there is none.
+  /// False if there is no such part.
   bool remove(World& world, const std::string& name, const PartDescription& part);
 
  private:
@@ -57,7 +59,7 @@ class LiveParts {
   Status follow_values(World& world, const SceneDescription& parts, const std::string& name);
   Status follow_particles(World& world, const SceneDescription& parts, const std::string& name);
   void untie(World& world, const SceneDescription& parts, ParticleSystemId id) const;
-  /// Null ids: there is none now.
+  /// Null id if there is none now.
   EmitterId emitter(const World& world, const std::string& name) const;
   ForceId force(const World& world, const std::string& name) const;
   bool remove_particles(World& world, const std::string& name);

@@ -8,46 +8,45 @@
 
 namespace tumble {
 
-/// A shape that stands for a mesh or for a part of it.
+/// A shape that approximates a mesh or a part of it.
 struct MeshPart {
   ShapeDef shape;
   Pose pose;          ///< in the mesh's frame
-  double filled = 1;  ///< the volume of what it stands for over its own
+  double filled = 1;  ///< volume of the solid that it approximates over its own volume [-]
 };
 
-/// The shapes of a mesh that collides in some way.
+/// The collision shapes of a mesh in one of its modes.
 struct MeshParts {
-  MeshRepresentation how;  ///< with the values that were taken where none were asked for
+  MeshRepresentation how;  ///< with default values filled in
   std::vector<MeshPart> parts;
-  std::string note;  ///< what is approximate about them and by how much; "": nothing
+  std::string note;  ///< what is approximate about them, and the error; "": nothing
 };
 
-/// From the caches, or made anew. Errors: a mesh that is not closed has no pieces and no field; a
+/// From the caches, or computed. Errors: a mesh that is not closed has no pieces and no field; a
 /// flat one has no hull, pieces or primitive; cancelled (engine/core/stop.hpp).
 Result<MeshParts> mesh_parts(const std::shared_ptr<const TriangleMesh>& mesh,
                              const MeshRepresentation& how);
 
-/// What is approximate about the hull of a mesh in its place, and by how much: how far it reaches
-/// outside, and what that does to the mass. "" where the mesh is convex, or has no hull.
+/// Note on the error of the hull of a mesh in its place: how far it extends beyond the mesh, and
+/// the effect on the mass. "" if the mesh is convex, or has no hull.
 std::string hull_note(const std::shared_ptr<const TriangleMesh>& mesh);
 
-/// Appends the shapes that stand for a mesh: `whole` has its pose in the body frame and its
-/// material.
+/// Appends the collision shapes of a mesh; `whole` has its pose in the body frame and its material.
 void append_mesh_parts(std::vector<BodyShapeDef>& shapes, const BodyShapeDef& whole,
                        const std::shared_ptr<const TriangleMesh>& mesh, const MeshParts& parts);
 
-/// Shapes of a body that belong together: those that stand for one mesh, or a single one. As many
-/// as the scene file has shapes of the body.
+/// Shapes of a body that belong together: those that approximate one mesh, or a single shape. A
+/// body has as many groups as the scene file has shapes of it.
 struct ShapeGroup {
   size_t first = 0, count = 1;
 };
 std::vector<ShapeGroup> shape_groups(const BodyDef& def);
 
-/// The mesh of a group that may collide in other ways too; nothing where there is none.
+/// The mesh of a group that may also collide in other modes; null if there is none.
 std::shared_ptr<const MeshSource> source_of(const BodyDef& def, const ShapeGroup& group);
 
-/// Puts other shapes for the same mesh in the place of a group, with the material of its first
-/// shape. Nothing changes where the group has no mesh.
+/// Replaces a group by other shapes for the same mesh, with the material of its first shape. No
+/// change if the group has no mesh.
 void replace_group(BodyDef& def, size_t group, const MeshParts& parts);
 
 }  // namespace tumble

@@ -7,14 +7,15 @@
 
 namespace tumble {
 
-/// Puts things behind those that they need, and else keeps the order in which they are added.
+/// Sorts things so that each comes after those that it needs, otherwise in the order in which they
+/// are added.
 class NamedOrder {
  public:
-  /// `needs`: the names that a thing needs; none of a name that nothing has.
+  /// `needs`: the names that a thing needs; empty for unknown names.
   explicit NamedOrder(std::function<std::vector<std::string>(const std::string&)> needs)
       : needs_(std::move(needs)) {}
 
-  /// False where what it needs leads back to it.
+  /// False if its needs form a cycle.
   bool add(const std::string& name) {
     if (std::ranges::find(order, name) != order.end()) return true;
     if (std::ranges::find(open_, name) != open_.end()) return false;

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// Pair potentials under which atoms of a crystal oscillate too fast for the tick: a sentence for
-/// each, with its name and the tick that holds it.
+/// Pair potentials with which atoms of a crystal oscillate too fast for the tick: a message for
+/// each, with its name and a sufficient tick.
 std::vector<std::string> pair_limit_warnings(const BuiltScene& built);
 
 }  // namespace tumble

@@ -6,10 +6,10 @@
 
 namespace tumble {
 
-/// What is probably not meant about the particles, emitters and sinks of a world at its start, a
-/// sentence each, which names them, the place and the cure: particles on one place, births inside
-/// bodies, sinks that hold all that there is, periodic boxes that do not fit, emitters from which
-/// nothing comes, liquids whose sound is too slow.
+/// Probable mistakes in the particles, emitters and sinks of a world at its start, a message for
+/// each, with names, place and cure: particles at the same place, births inside bodies, sinks that
+/// contain everything, periodic boxes that do not fit, emitters that emit nothing, liquids whose
+/// speed of sound is too low.
 std::vector<std::string> particle_warnings(const BuiltScene& built);
 
 }  // namespace tumble

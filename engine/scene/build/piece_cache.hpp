@@ -4,21 +4,21 @@
 
 namespace tumble {
 
-/// What a scene needs of a convex decomposition.
+/// The part of a convex decomposition that a scene needs.
 struct MeshPieces {
   struct Piece {
     std::vector<Vec3> vertices;  ///< of its hull [m]
     double volume = 0;           ///< of the hull [m^3]
-    double solid = 0;            ///< of the part of the mesh that it stands for [m^3]
+    double solid = 0;            ///< of the part of the mesh that it covers [m^3]
   };
   std::vector<Piece> pieces;
-  /// How far they reach outside the mesh, and how far it stands out of them, as sampled [m].
+  /// How far the pieces extend beyond the mesh, and the mesh beyond them, as sampled [m].
   double added = 0, missing = 0;
   double concavity = 0;  ///< the bound [m]
   bool bound_met = true;
 };
 
-/// Decompositions that were made before (content_cache.hpp).
+/// Cache of decompositions (content_cache.hpp).
 class PieceCache {
  public:
   PieceCache() : PieceCache(ContentCache::usual_folder("decompositions")) {}

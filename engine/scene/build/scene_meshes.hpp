@@ -12,15 +12,15 @@
 
 namespace tumble {
 
-/// The mesh files of a scene, each read once, and what they collide as.
+/// The mesh files of a scene, each read once, and their collision shapes.
 class SceneMeshes {
  public:
   /// Reads every mesh of the scene; what fails goes to `sink`, what was changed to `warnings`.
   SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
               std::vector<std::string>& warnings);
-  /// Null for one that could not be read, about which a fault has been given.
+  /// Null for a mesh that could not be read, for which there is a fault.
   std::shared_ptr<const TriangleMesh> find(const std::string& name) const;
-  /// What a mesh collides as where its shape does not say otherwise: null as find().
+  /// The collision shapes of a mesh, unless a shape chooses another mode; null as for find().
   const MeshParts* parts(const std::string& name) const;
   /// True once for each mesh and sentence about it, however many shapes it would be said of.
   bool says_first(const TriangleMesh& mesh, const std::string& note) const;

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// The sensors that one of a scene stands for, in a world whose bodies and particles exist. Errors:
-/// what it names does not exist.
+/// The sensors that a described sensor stands for, in a world whose bodies and particles exist.
+/// Errors: something that it names does not exist.
 Result<std::vector<SensorDef>> sensor_defs(const std::string& name, const SensorDescription& sensor,
                                            const BuiltScene& built);
 

@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// Warnings of one kind: the first few, and how many more there are. Copies of a thing would all
-/// say the same.
+/// Warnings of one kind: the first few, and the number of the others, since copies of a thing give
+/// the same warning.
 class Sentences {
  public:
   static constexpr size_t most_named = 3;

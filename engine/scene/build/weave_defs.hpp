@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// A weave that waits for its particles to be in the world.
+/// A weave whose particles have yet to be created in the world.
 struct WaitingWeave {
   std::string system;  ///< name of the particle system
   std::string name;    ///< of the force: "flag.cloth", "bridge.rope[2]"
@@ -13,16 +13,16 @@ struct WaitingWeave {
   double break_strain = 0;  ///< [-]
 };
 
-/// The systems through whose particles ropes of a system run, each as often as they do.
+/// The systems through whose particles ropes of a system run, once for each rope.
 std::vector<std::string> systems_on_ropes(const ParticleSystemDescription& system);
 
-/// The particle systems in the order in which they can be made: as in the file, but behind those
-/// through which their ropes run. Error: ropes lead from a system back to it.
+/// The particle systems in an order in which they can be created: as in the file, but after those
+/// through which their ropes run. Error: ropes form a cycle of systems.
 Result<std::vector<std::string>> particle_order(const SceneDescription& scene);
 
-/// Adds the particles of the cloths, nets and ropes of a system to its definition, which may have
-/// `budget` in all, and gives what is to be tied once they are there. Bodies that hold them exist.
-/// Errors: with their place.
+/// Adds the particles of the cloths, nets and ropes of a system to its definition, of at most
+/// `budget` in all, and returns the weaves to be connected when the particles exist. The bodies
+/// that hold them must exist. Errors: with their place.
 Result<std::vector<WaitingWeave>> add_weaves(const std::string& name,
                                              const ParticleSystemDescription& system, double budget,
                                              const BuiltScene& built, ParticleSystemDef& out);

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// What a scene says of itself, to be checked while it runs.
+/// A condition that a scene claims about itself, checked while it runs.
 struct AssertionDescription {
   std::string holds;  ///< a condition over what `tumble simulate --assert` knows, and parameters
   std::string title;

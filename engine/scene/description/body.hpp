@@ -12,7 +12,7 @@ struct EnumNames<BodyType> {
        {"dynamic", BodyType::dynamic}}};
 };
 
-/// What of the look is not the colour.
+/// The look of a body, except its colour.
 struct LookDescription {
   double roughness = 0.6;
   double metallic = 0;
@@ -47,7 +47,7 @@ struct LookDescription {
   }
 };
 
-/// What differs in one copy of a repeated body.
+/// Values that differ in one copy of a repeated body.
 struct CopyDescription {
   bool present = true;
   std::optional<BodyType> type;
@@ -112,7 +112,7 @@ struct CopyDescription {
   }
 };
 
-/// How a kinematic body goes its way, from where it is placed.
+/// The prescribed course of a kinematic body, relative to its initial pose.
 struct BodyCourseDescription {
   std::optional<Varying> x, y, z, angle_deg;
   Vec3 axis{0, 0, 1};

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-// What acts along a coordinate of a joint. Lengths are in metres; angles carry the suffix _deg, but
-// for rates and stiffnesses, which are per radian.
+// Drives along a coordinate of a joint. Lengths are in metres; angles have the suffix _deg, except
+// rates and stiffnesses, which are per radian.
 
 /// Bounds of a coordinate.
 struct LimitsDescription {
@@ -54,7 +54,7 @@ struct LimitsDescription {
   }
 };
 
-/// Exactly one of velocity, position, position_deg and force, which may change over time.
+/// Exactly one of velocity, position, position_deg and force, which may be functions of time.
 struct MotorDescription {
   std::optional<Varying> velocity, position, position_deg, force;
   std::optional<double> stiffness, damping, max_force;
@@ -178,7 +178,7 @@ struct CoupleDescription {
   }
 };
 
-/// All that acts along one coordinate.
+/// All drives along one coordinate.
 struct DriveDescription {
   std::optional<LimitsDescription> limits;
   std::optional<MotorDescription> motor;

@@ -25,7 +25,7 @@ struct EnumNames<SpawnRule::On> {
        {"collision", SpawnRule::On::collision},
        {"sink", SpawnRule::On::sink}}};
 };
-/// About which way particles leave.
+/// Direction in which particles are emitted.
 enum class EmissionDirection : uint8_t {
   axis,     ///< y of the emitter's frame
   outward,  ///< the normal of the shape where they leave
@@ -36,7 +36,7 @@ struct EnumNames<EmissionDirection> {
       {{"axis", EmissionDirection::axis}, {"outward", EmissionDirection::outward}}};
 };
 
-/// A number that is drawn for each particle. In a file a bare number stands for {"mean": number}.
+/// A random number, drawn for each particle. In a file a bare number stands for {"mean": number}.
 struct RandomNumberDescription {
   RandomNumber number;
 

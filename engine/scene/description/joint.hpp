@@ -26,7 +26,7 @@ struct EnumNames<JointKind> {
 /// "the coordinates of a planar joint are: x, y, angle".
 std::string names_of_coordinates(const JointKindEntry& kind);
 
-/// A joint of two bodies, or of a body and the world, as they are at the start.
+/// A joint of two bodies, or of a body and the world, in their configuration at the start.
 struct JointDescription {
   JointKind kind = JointKind::spherical;
   std::string a, b;

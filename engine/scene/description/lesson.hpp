@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// What a lesson asks. The answer is a number that the lesson gives, or what the world itself says.
+/// A question of a lesson. The answer is a number given by the lesson, or a quantity of the world.
 struct QuestionDescription {
   std::string ask;
   std::optional<double> answer;
@@ -44,7 +44,7 @@ struct QuestionDescription {
   static void check(const QuestionDescription& d, Complaints& complaints);
 };
 
-/// A page of a lesson, with what it wants to be seen.
+/// A page of a lesson, with the camera, overlays and plots for it.
 struct LessonStepDescription {
   std::string title;
   std::vector<std::string> text;      ///< paragraphs
@@ -71,7 +71,7 @@ struct LessonStepDescription {
   static void check(const LessonStepDescription& d, Complaints& complaints);
 };
 
-/// What a scene teaches, page by page, beside the picture.
+/// A lesson of a scene, shown page by page beside the picture.
 struct LessonDescription {
   std::string about;
   std::vector<LessonStepDescription> steps;

@@ -18,7 +18,7 @@ struct EnumNames<SensorTakes> {
        {"both", SensorTakes::both}}};
 };
 
-/// Where a gate or region is, and whom it looks at.
+/// Position of a gate or region, and what it counts.
 struct SensorTarget {
   Placement placement;
   std::string body;
@@ -39,7 +39,7 @@ struct SensorTarget {
   }
 };
 
-/// Counts what goes through a disc or a rectangle.
+/// Counts what passes through a disc or a rectangle.
 struct GateDescription {
   static constexpr std::string_view type_name = "gate";
   std::optional<double> radius;
@@ -72,7 +72,7 @@ struct GateDescription {
   SensorShape shape() const;
 };
 
-/// What is in a box, sphere or cylinder.
+/// Counts what is inside a box, sphere or cylinder.
 struct RegionDescription {
   static constexpr std::string_view type_name = "region";
   std::vector<double> size;

@@ -46,8 +46,8 @@ struct CameraKeyDescription {
   }
 };
 
-/// From where to look. With `follow`, position and target move with that body; with `path` they
-/// are where the keys say, and on smooth curves between them.
+/// A viewpoint. With `follow`, position and target move with that body; with `path` they follow a
+/// smooth curve through the keys.
 struct CameraDescription {
   Vec3 position{6, 4, 8};  ///< [m]
   Vec3 target{0, 1, 0};    ///< [m]

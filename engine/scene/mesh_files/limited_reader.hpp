@@ -5,21 +5,21 @@
 
 namespace tumble {
 
-/// What reading one file may take.
+/// Limits for reading one file.
 struct ReadingLimits {
-  double seconds = 10;                 ///< of processor; waiting, three times as much
-  uint64_t bytes = uint64_t{1} << 30;  ///< of memory beyond what the program has already
+  double seconds = 10;                 ///< CPU time; three times as much wall time [s]
+  uint64_t bytes = uint64_t{1} << 30;  ///< memory beyond what the program uses already
 };
-/// Limits for a file of so many bytes: generous for a whole one, whatever its format.
+/// Limits for a file of this size, generous for any valid file of any format.
 ReadingLimits reading_limits(uint64_t file_bytes);
 
 /// Whether this build limits readers: see read_limited().
 bool reads_in_a_process_of_its_own();
-/// Reads a file with a reader that is not to be trusted (of a foreign library: it may crash, hang
-/// or take all memory on damaged files) in a forked process, and takes over what it found. Whatever
-/// becomes of that process, this one goes on: an error that says what happened. Builds with
-/// sanitizers read in this process: theirs are allocators that may be locked by another thread when
-/// it forks, which the C library's never is, and they take the address space for themselves.
+/// Runs an untrusted reader (one of a library, which may crash, hang or exhaust memory on damaged
+/// files) in a forked process, and receives its result. Whatever happens to that process, this one
+/// continues, with an error that says what happened. Builds with sanitizers read in this process,
+/// since their allocators, unlike the C library's, may be locked by another thread during the fork,
+/// and they reserve the address space.
 Result<PolygonFile> read_limited(const std::filesystem::path& file,
                                  Result<PolygonFile> (*read)(const std::filesystem::path&),
                                  const ReadingLimits& limits);

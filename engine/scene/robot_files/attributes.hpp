@@ -10,8 +10,8 @@
 
 namespace tumble {
 
-/// The attributes of one element while it is read: what nobody asks for is said at the end, so that
-/// nothing of a file is dropped in silence.
+/// The attributes of an element during reading: attributes that were not read are reported at the
+/// end, so that nothing of a file is dropped silently.
 class Attributes {
  public:
   Attributes(const XmlElement& element, RobotLog& log);
@@ -23,7 +23,7 @@ class Attributes {
     std::string text;
     RobotPlace at;
   };
-  /// What holds for an attribute that the element itself does not give.
+  /// The value of an attribute that the element itself does not have.
   void set_default(const std::string& name, const Value& value);
 
   const RobotPlace& at() const { return at_; }
@@ -45,9 +45,9 @@ class Attributes {
   size_t word(std::string_view name, std::initializer_list<std::string_view> words);
   std::optional<Colour> rgba(std::string_view name, double* alpha = nullptr);
 
-  /// Known, and of no meaning for Tumble.
+  /// Attributes that are known, but irrelevant here.
   void skip(std::initializer_list<std::string_view> names);
-  /// Says of those that are given that they are not followed.
+  /// Warns that these attributes, if given, are not supported.
   void warn_of(std::initializer_list<std::string_view> names, const std::string& why);
   void fault(std::string_view name, const std::string& message);
 

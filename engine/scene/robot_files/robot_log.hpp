@@ -14,12 +14,12 @@ struct RobotPlace {
   int line = 0;
 };
 
-/// What is wrong with a robot file, and what it asks for and does not get.
+/// Faults of a robot file, and requests of it that are not supported.
 class RobotLog {
  public:
   void fault(const RobotPlace& at, std::string message);
-  /// Something that is not followed or not as asked. The same of several lines becomes one warning
-  /// that lists them.
+  /// A request that is not followed, or not exactly. Equal messages of several lines become one
+  /// warning that lists the lines.
   void warn(const RobotPlace& at, const std::string& message);
 
   const std::vector<Fault>& faults() const { return faults_; }

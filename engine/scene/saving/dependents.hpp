@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// What was taken out of a scene's file because something else is gone.
+/// Something that was removed from a scene's file because it depended on something removed.
 struct TakenAlong {
   std::string list;  ///< "joints", "cameras", "lesson"
   std::string name;  ///< of what stands there; "" where nothing has names
@@ -18,11 +18,12 @@ struct TakenAlong {
   std::string words() const;
 };
 
-/// Takes out of the text whatever names something that is not there any more: a body, a joint, a
-/// particle system, an emitter or another part of this name in this list, and what needs that in
-/// turn. A joint, a force, a sensor or an emitter goes as a whole, and so does a force or sensor of
-/// which everything that it acts on is gone (without names it would act on all); from lists,
-/// cameras and lessons goes only what names it, and nothing goes that can do without.
+/// Removes from the text everything that refers to a removed thing: a body, a joint, a particle
+/// system, an emitter or another part of this name in this list, and recursively what depends on
+/// that. A joint, force, sensor or emitter is removed as a whole, also a force or sensor whose
+/// targets are all removed (without names it would act on everything); in lists, cameras and
+/// lessons only the reference is removed. Optional references are not a reason to remove anything
+/// else.
 std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
                                         const std::string& name);
 

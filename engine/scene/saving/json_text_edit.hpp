@@ -9,17 +9,17 @@
 
 namespace tumble {
 
-/// The text of a JSON file with comments, changed value by value: whatever is not changed keeps its
-/// bytes, comments, order and layout included.
+/// The text of a JSON file with comments, edited value by value: everything that is not edited
+/// keeps its bytes, including comments, order and layout.
 class JsonTextEdit {
  public:
   using Path = std::vector<PathStep>;
 
-  /// The text has been parsed by parse_json() without faults.
+  /// `text` must have been parsed by parse_json() without faults.
   explicit JsonTextEdit(std::string text) : text_(std::move(text)) {}
 
   const std::string& text() const { return text_; }
-  /// The text of a value, nothing when there is none.
+  /// The text of a value, empty if there is none.
   std::optional<std::string_view> value(const Path& path) const;
   /// Replaces a value, or adds it as the last member of its object; objects on the way that are
   /// missing are made. False where something on the way is no object or array, or an item is

@@ -59,7 +59,7 @@ std::vector<double> least_columns(const BlockProblem& problem, const VecX& wante
     }
     factor.solve(dx);
     const double moved = sum_of_squares(dx);
-    // The rest is rounding.
+    // Further changes are rounding error.
     if (!(moved < 0.25 * least)) break;
     least = moved;
     for (size_t k = 0; k < x.size(); ++k) x[k] += dx[k];

@@ -22,7 +22,7 @@ Result<LcpSolution> block_newton(const BlockProblem& problem, const LcpOptions& 
   const VecX z = start ? system.in_scaled_units(*start) : system.rest();
   const bool done = system.size() == 0 || (start && (newton.consider(z) || newton.attempt(z))) ||
                     newton.attempt_inside();  // from where no cone matters, which is mostly near
-  // What is as good as was asked for is not sought anew from elsewhere.
+  // A result that is good enough is not searched for again from another start.
   if (!done && newton.best().residual > options.tolerance) newton.attempt_after_sweeps(z);
   return newton.answer(options);
 }

@@ -10,7 +10,7 @@
 namespace tumble::lcp {
 namespace {
 
-/// E^-1 of a unit with 3 rows of which the first has no entries beside the diagonal.
+/// E^-1 of a unit with 3 rows, the first of which has only its diagonal entry.
 bool invert_from_first(const Square& e, Square& out) {
   const double det = e[4] * e[8] - e[5] * e[7];
   out = {1 / e[0], 0, 0, 0, e[8] / det, -e[5] / det, 0, -e[7] / det, e[4] / det};
@@ -67,7 +67,7 @@ Triple BlockSystem::swept_slack(size_t part) const {
   return w;
 }
 
-/// Factors 1 + G^T D G, unless it is that of the last time.
+/// Factors 1 + G^T D G, unless D is unchanged.
 bool BlockSystem::renew_factor(std::vector<Square> responses) {
   if (factored_ && responses == responses_) return true;
   responses_ = std::move(responses);
@@ -112,7 +112,7 @@ bool BlockSystem::step(std::span<const UnitValue> values, const VecX& f, double 
   return dz.allFinite();
 }
 
-/// w too; `unit` is the largest term.
+/// Residuals of z, and w; `unit` is the largest term.
 LcpResidual BlockSystem::judged(const VecX& z, double unit, VecX& w) {
   const VecX scaled = in_scaled_units(z);
   w.resize(units_.n);

@@ -18,7 +18,7 @@
 namespace tumble::lcp {
 namespace {
 
-/// What the solver can take at all: groups are more than bounds.
+/// Whether the solver accepts the problem's groups.
 bool takes(const LcpSolverEntry& solver, const LcpProblem& problem) {
   return std::all_of(problem.groups.begin(), problem.groups.end(), [&](const ConeGroup& g) {
     return g.mode == ConeMode::sliding ? solver.sliding : solver.undecided;
@@ -69,7 +69,7 @@ Result<LcpSolution> newton_by_blocks(const ConeTask& t, int systems) {
   return block_newton(*t.blocks, block_options(t, systems), t.warm ? &t.start : nullptr);
 }
 
-/// From the start, which mostly needs little change; where that leads nowhere, from none.
+/// From the start, which usually needs few corrections; if that fails, without it.
 Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
   LcpOptions options;
   options.tolerance = t.tolerance;
@@ -82,7 +82,7 @@ Result<LcpSolution> newton_with_matrix(const ConeTask& t) {
   return cone_newton(t.problem, options);
 }
 
-/// Status by the task's tolerance, whatever was sought.
+/// Sets the status by the task's tolerance, whatever tolerance the stage aimed at.
 void judge_again(const ConeTask& t, LcpSolution& s) {
   s.report.status = LcpStatus::solved;
   if (t.blocks)
@@ -118,8 +118,8 @@ class ConeStages {
   void ask_matrix() {
     if (task_.problem.A.size() == 0 && task_.matrix) task_.problem.A = task_.matrix();
   }
-  /// Of a few sliding groups what is not solved must balance besides: residuals are relative to
-  /// terms that may grow without limit where there is no answer.
+  /// With few sliding groups, a result that is not solved must also satisfy balances(): residuals
+  /// are relative to terms that may grow without bound if there is no solution.
   bool holds(const LcpSolution& s) {
     if (s.report.solved()) return true;
     if (!believed(task_, s)) return false;
@@ -148,7 +148,7 @@ void ConeStages::attempt(const ConeStage& stage) {
   }
   Result<LcpSolution> now = stage.solve(task_);
   LcpReport report;
-  report.status = LcpStatus::numeric;  // where a stage refuses the problem
+  report.status = LcpStatus::numeric;  // if a stage refuses the problem
   if (now) report = now->report;
   out_.attempts.push_back(
       {stage.name, report.status, report.iterations, report.residual, stage.sliding});
@@ -159,7 +159,7 @@ void ConeStages::attempt(const ConeStage& stage) {
   proved_ = report.status == LcpStatus::infeasible;
   if (proved_) ray_ = now->ray;
   if (first || better) best = std::move(*now);
-  // The first of several stages is measured by what it aims at.
+  // The first of several stages is judged by the tolerance that it aims at.
   if (!first && !best.report.solved() && !stage.sliding) judge_again(task_, best);
 }
 

@@ -62,7 +62,7 @@ double PathFollower::evaluate(const VecX& z, double smoothing) {
   return std::sqrt(dot(f_.data(), f_.data(), system_.size()));
 }
 
-/// To the point of the path with a smoothing.
+/// Goes to the point of the path with this smoothing.
 bool PathFollower::reach(VecX& z, double smoothing) {
   double now = evaluate(z, smoothing);
   VecX dz, trial;
@@ -102,13 +102,13 @@ void PathFollower::follow() {
       done = consider(z);
       if (system_.systems - before <= 4) factor = std::max(tolerances::fastest_path, 0.5 * factor);
     } else if (reached == 0) {
-      // The path is easy to find far from its end, where nothing but the smoothing counts.
+      // The path is easy to find at large smoothing, which then dominates all other terms.
       z = there;
       smoothing *= 10;
       if (smoothing > tolerances::farthest_path * scale_) return;
       continue;
     } else {
-      // Rows that nearly depend on others end it sooner than rounding does.
+      // Rows that nearly depend on others end the path before rounding does.
       if (best_.residual <= enough_ || reached <= tolerances::nearly_path_end * scale_) return;
       z = there;
       factor = std::sqrt(factor);
@@ -126,7 +126,7 @@ LcpSolution solve_along_path(ConeSystem& system, const LcpOptions& options, doub
   PathFollower path(system, options, weight);
   if (system.size() > 0) path.follow();
   out.z = path.best().z;
-  // Of what is no solution Newton's method makes none.
+  // Newton's method cannot turn a result far from a solution into one.
   if (system.size() > 0 && path.best().residual > polish_above) {
     LcpOptions few = options;
     few.max_iterations = end_limits.systems;

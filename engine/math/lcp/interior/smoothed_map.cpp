@@ -16,7 +16,7 @@ struct Smooth {
 Smooth positive_part(double v, double t) {
   const double root = std::sqrt(v * v + 4 * t * t);
   if (!(root > 0)) return {0, 0.5};
-  // The smaller of the two roots of g (g - v) = t^2 by the greater one.
+  // The smaller of the two roots of g (g - v) = t^2, computed from the greater one.
   const double greater = 0.5 * (root + std::fabs(v));
   const double smaller = t * t / greater;
   return v > 0 ? Smooth{greater, greater / root} : Smooth{smaller, smaller / root};
@@ -65,7 +65,7 @@ void cone_part(const Triple& v, double t, Triple& value, Square& slope) {
            across + (mean - across) * s * s};
 }
 
-/// `rounding` is what |w_t| is where w_t is 0.
+/// `rounding` is the value of the smoothed |w_t| at w_t = 0.
 void add_circular(const ConeGroup& g, const Triple& z, const Triple& w, double t, double rounding,
                   UnitValue& out) {
   const double length = std::sqrt(w[1] * w[1] + w[2] * w[2] + rounding * rounding);
@@ -85,7 +85,7 @@ void add_circular(const ConeGroup& g, const Triple& z, const Triple& w, double t
   }
 }
 
-/// The first unknown of a unit, with bounds.
+/// Function and derivatives for the first unknown of a unit, with bounds.
 void add_single(const ConeUnit& unit, double z, double w, double t, UnitValue& out) {
   if (unit.lower == unit.upper) {
     out.f[0] = z - unit.lower;

@@ -134,7 +134,7 @@ Result<LcpSolution> minimum_norm(const LcpProblem& problem, const LcpSolution& s
   if (!solution.report.solved() || problem.size() == 0 || solution.z.cwiseAbs().maxCoeff() == 0)
     return out;
   const VecX w = slack(problem, solution.z);
-  // What w has of rounding is relative to the terms of A z + b.
+  // The rounding error of w is relative to the terms of A z + b.
   const double still = std::max(tolerances::least_w_rounding, 10 * solution.report.residual) *
                        term_unit(problem, solution.z);
   MatX basis = row_space(problem);

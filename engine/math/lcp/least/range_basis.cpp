@@ -11,7 +11,7 @@
 namespace tumble::lcp {
 namespace {
 
-/// Removes from x what lies along the first `count` columns of q, twice.
+/// Removes from x its components along the first `count` columns of q, twice.
 void remove_span(const MatX& q, int count, double* x) {
   const int n = int(q.rows());
   charge_work(size_t(n), 4 * size_t(count));

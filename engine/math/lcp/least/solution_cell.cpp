@@ -41,7 +41,8 @@ Point on_disc_cone(double slope, const Point& x, Matrix& j) {
   return out;
 }
 
-/// Each lateral is inside, on one side, or on the other: the nearest admissible of all faces.
+/// Each lateral is inside, on one side, or on the other: returns the nearest admissible point of
+/// all faces.
 Point on_square_cone(const SolutionCell& s, const Point& x, Matrix& j) {
   Point best{};
   j = {};
@@ -102,7 +103,7 @@ SolutionCell cell_of(const ConeGroup& g, const std::array<double, 3>& z,
     }
   } else if (length > still) {
     c.kind = SolutionCell::ray;
-    // z_t and w_t are opposed: the longer one, by its own rounding, says where.
+    // z_t and w_t are opposite: the one with less relative rounding error gives the direction.
     const double lateral = std::sqrt(z[1] * z[1] + z[2] * z[2]);
     const bool by_z = lateral > length;
     const double f = by_z ? g.slope / lateral : -g.slope / length;

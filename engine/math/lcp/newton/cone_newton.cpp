@@ -15,8 +15,8 @@ namespace {
 constexpr NewtonLimits dense_limits{60, 1000, 20000};
 constexpr NewtonLimits polish_limits{60, 60, 0};
 
-/// L D L^T of the rows of groups and of free unknowns, made regular; false where some depend on
-/// others.
+/// L D L^T of the rows of groups and of free unknowns, regularised; false if some of them are
+/// dependent.
 bool factor_inside(const DenseSystem& system, LdlFactor& factor) {
   const ScaledProblem& p = system.scaled();
   std::vector<char> equation(size_t(p.n), 0);
@@ -39,9 +39,9 @@ bool factor_inside(const DenseSystem& system, LdlFactor& factor) {
   return true;
 }
 
-/// The solution with all those rows as equations, which is that of the problem where no cone nor
-/// bound matters, with one symmetric factorisation; what was added fades as z is refined. True when
-/// it is the solution.
+/// The solution with all those rows as equations, which solves the problem if no cone and no bound
+/// is active, by one symmetric factorisation; iterative refinement removes the regularisation. True
+/// if it is the solution.
 bool start_inside(DenseSystem& system, SemismoothNewton& newton, VecX& z) {
   LdlFactor factor;
   if (!factor_inside(system, factor)) return false;

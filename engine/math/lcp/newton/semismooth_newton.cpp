@@ -22,7 +22,7 @@ SemismoothNewton::SemismoothNewton(ConeSystem& system, const NewtonLimits& limit
       best_(system.size()),
       values_(system.parts().size()) {}
 
-/// F and w at z; half the square of F.
+/// Computes F and w at z; returns half the square of F.
 double SemismoothNewton::evaluate(const VecX& z) {
   system_.slack(z, about_, w_);
   for (const ConeUnit& unit : system_.parts()) {
@@ -32,8 +32,8 @@ double SemismoothNewton::evaluate(const VecX& z) {
   return 0.5 * dot(f_.data(), f_.data(), system_.size());
 }
 
-/// The Newton step at the point of the last evaluate(); `inside`: as if no undecided group were on
-/// its cone.
+/// The Newton step at the point of the last evaluate(); `inside`: as if all undecided groups were
+/// inside their cones.
 bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
   VecX f = f_;
   for (size_t k = 0; k < values_.size(); ++k) {
@@ -48,7 +48,7 @@ bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
   return system_.step(values_, f, about_.weight, dz);
 }
 
-/// One proximal problem; true when F is as small as rounding allows.
+/// Solves one proximal problem; true if F is as small as rounding allows.
 bool SemismoothNewton::converge(VecX& z) {
   VecX dz(z.size()), trial;
   double now = evaluate(z);

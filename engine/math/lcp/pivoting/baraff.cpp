@@ -13,14 +13,14 @@
 namespace tumble::lcp {
 namespace {
 
-/// Whether trying all assignments proves that there is no solution.
+/// Whether enumeration of all assignments proves that there is no solution.
 bool refuted(const LcpProblem& problem) {
   if (!is_quick_to_enumerate(problem)) return false;
   const auto all = enumeration(problem);
   return all.ok() && all->report.status == LcpStatus::infeasible;
 }
 
-/// baraff(), watched or not.
+/// baraff(), with or without a trace.
 Result<LcpSolution> pivot_with_cones(const LcpProblem& problem, const LcpOptions& options,
                                      PivotTrace* trace) {
   if (Status c = check(problem); !c) return c.error();

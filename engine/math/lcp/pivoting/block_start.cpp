@@ -22,8 +22,8 @@ void find_wrong(const PivotState& s, std::vector<int>& indices) {
     if (s.wrong(i) > s.tolerance()) indices.push_back(i);
 }
 
-// What the state is asked for, paid for: a triangular solution for each unknown that is clamped, an
-// update of the factor for each that is freed, or all of it anew where that is less.
+// Charges the work of the state's operations: a triangular solve for each unknown that is clamped,
+// and for each that is freed an update of the factor, or a new factorisation if that is less.
 
 bool pay_and_clamp(PivotState& s, int i) {
   const size_t m = s.members().size();

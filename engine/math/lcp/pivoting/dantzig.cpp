@@ -26,9 +26,9 @@ LcpStatus pivot(const ScaledProblem& scaled, int limit, LcpSolution& out,
   return status;
 }
 
-/// Matrices whose small pivots are of the size of rounding lead pivoting astray. A sequence of
-/// problems with `weight` times the identity added, each about the solution of the last, has
-/// no such pivots, and where it converges the addition has vanished (Rockafellar 1976).
+/// Pivoting fails for matrices whose small pivots are of the size of rounding. A sequence of
+/// problems with `weight` times the identity added, each centred at the solution of the last, has
+/// no such pivots, and the addition vanishes as it converges (Rockafellar 1976).
 bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit, LcpSolution& out) {
   constexpr double weight = tolerances::dantzig_weight;
   ScaledProblem near = scaled;
@@ -48,7 +48,7 @@ bool converge(const LcpProblem& problem, const ScaledProblem& scaled, int limit,
   return best < std::numeric_limits<double>::infinity();
 }
 
-/// dantzig(), watched or not.
+/// dantzig(), with or without a trace.
 Result<LcpSolution> pivot_and_check(const LcpProblem& problem, const LcpOptions& options,
                                     PivotTrace* trace) {
   if (Status c = check(problem); !c) return c.error();

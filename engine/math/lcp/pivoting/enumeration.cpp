@@ -15,7 +15,7 @@ namespace {
 
 constexpr int few_unknowns = 8;  ///< beside lateral ones
 
-/// What one unknown may be: at a bound, resting at 0 (free ones only), or solved for (NaN).
+/// The choices of one unknown: a bound, 0 (free ones only), or NaN for solving.
 std::vector<double> choices_of(const ScaledProblem& p, int i) {
   const bool low = std::isfinite(p.lower[i]), high = std::isfinite(p.upper[i]);
   if (p.lower[i] == p.upper[i]) return {p.lower[i]};
@@ -27,7 +27,7 @@ std::vector<double> choices_of(const ScaledProblem& p, int i) {
   return out;
 }
 
-/// Solves for the unknowns that `z` has as NaN; false when their matrix is singular.
+/// Solves for the unknowns that are NaN in `z`; false if their matrix is singular.
 bool fill_in(const ScaledProblem& p, VecX& z) {
   std::vector<int> solved;
   for (int i = 0; i < p.n; ++i)

@@ -75,7 +75,7 @@ void LdlFactor::remove(int position) {
   const int m = size(), k = position;
   for (int j = 0; j < k; ++j)
     std::memmove(column(j) + k, column(j) + k + 1, size_t(m - k - 1) * sizeof(double));
-  // What column k contributed to the rows below it comes back as a positive rank-one term.
+  // The contribution of column k to the rows below it is restored as a positive rank-one term.
   double* p = scratch_.data();
   std::memcpy(p + k + 1, column(k) + k + 1, size_t(m - k - 1) * sizeof(double));
   double factor = d_[size_t(k)];

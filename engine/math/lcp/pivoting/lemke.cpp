@@ -91,7 +91,7 @@ class LemkeTableau {
   std::vector<int> basic_;
 };
 
-/// Runs the pivots; on a ray `direction` gets the v part.
+/// Runs the pivots; on a ray `direction` receives its v part.
 LcpStatus run_lemke(LemkeTableau& t, const StandardForm& f, int limit, int& pivots,
                     std::vector<double>& direction) {
   int r = t.first_leaving();

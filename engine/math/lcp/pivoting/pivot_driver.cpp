@@ -60,7 +60,8 @@ int PivotDriver::choose() const {
   return best;
 }
 
-/// The greatest entry of A d, of the length of d; clamped ones are 0 but for rounding.
+/// The greatest entry of A d relative to the length of d; entries of clamped unknowns are 0 up to
+/// rounding.
 double PivotDriver::change() const {
   double length = 0, most = 0;
   for (int i = 0; i < s_.n; ++i) {
@@ -140,8 +141,8 @@ void PivotDriver::collect(int l, double sign, bool flat) {
   if (!flat) collect_slacks(l);
 }
 
-/// The first stop. Of those that rounding cannot tell apart the one with the greatest rate, which
-/// makes the safest pivot (Harris 1973); or, against cycling, the one with the least index.
+/// The first stop. Of those that are equal up to rounding, the one with the greatest rate, which is
+/// the safest pivot (Harris 1973); or, against cycling, the one with the least index.
 PivotDriver::Stop PivotDriver::pick() const {
   const double slack = s_.tolerance();
   double reach = endless;
@@ -163,7 +164,7 @@ PivotDriver::Stop PivotDriver::pick() const {
 void PivotDriver::meet_surface(int i, PivotState::Group& g) {
   const double slope = g.cone.slope;
   if (g.round()) {
-    // From the apex the way out is that of the motion.
+    // At the apex the laterals leave in the direction of the motion.
     const int j = g.cone.lateral[1];
     if (std::fabs(s_.z[i]) + std::fabs(s_.z[j]) <= s_.tolerance()) s_.turn(g, dz_[i], dz_[j]);
     s_.tie_along_z(g);
@@ -174,7 +175,7 @@ void PivotDriver::meet_surface(int i, PivotState::Group& g) {
   s_.role[size_t(i)] = Role::tied;
 }
 
-/// Changes roles; false when the motion of l is over.
+/// Changes roles; false if the motion of l has ended.
 bool PivotDriver::apply(const Stop& stop, int l) {
   const int i = stop.index;
   PivotState::Group* g = s_.grouped(i) ? &s_.group(i) : nullptr;
@@ -210,7 +211,7 @@ bool PivotDriver::apply(const Stop& stop, int l) {
   return false;
 }
 
-/// True when a set came back twice while nothing moved.
+/// True if a set has come back twice while nothing moved.
 bool PivotDriver::repeats(int l, double step) {
   if (step > 0) {
     seen_.clear();
@@ -225,8 +226,8 @@ bool PivotDriver::repeats(int l, double step) {
   return std::exchange(least_index_, true);
 }
 
-/// Without groups A d = 0 is a proof. A d != 0 while d A d <= 0 is what no semi-definite matrix
-/// does, but one that rounding spoiled may, if A d is small.
+/// Without groups A d = 0 is a proof. A d != 0 with d A d <= 0 is impossible for a semi-definite
+/// matrix, unless rounding has perturbed it, in which case A d is small.
 LcpStatus PivotDriver::finish_unblocked(int l, bool flat) {
   if (flat && std::fabs(s_.w[l]) <= tolerances::rounded_w * s_.magnitude) {
     s_.excused[size_t(l)] = 1;
@@ -262,7 +263,7 @@ LcpStatus PivotDriver::drive(int l) {
   }
 }
 
-/// The state after a stop; in the problem's own units and axes.
+/// Records the state after a stop, in the problem's units and axes.
 void PivotDriver::note(int driven, const Stop& stop) const {
   if (trace_->steps.size() >= trace_->most) {
     ++trace_->left_out;
@@ -275,7 +276,7 @@ void PivotDriver::note(int driven, const Stop& stop) const {
   if (driven >= 0) step.step = stop.step() * dz_[driven] * s_.problem.d[size_t(driven)];
   step.z = s_.in_own_units(s_.z);
   for (int i = 0; i < s_.n; ++i) {
-    // What is driven has left its bound, though not yet arrived.
+    // The driven unknown has left its bound, but has not arrived.
     const bool under_way = i == driven && s_.z[i] != s_.problem.lower[i] &&
                            s_.z[i] != s_.problem.upper[i] && !s_.is_clamped(i);
     const PivotSet set = set_of(s_.role[size_t(i)], s_.place[size_t(i)]);
@@ -283,14 +284,15 @@ void PivotDriver::note(int driven, const Stop& stop) const {
   }
 }
 
-/// An open group's axial unknown: first with the laterals as they would slip, then without them.
+/// Drives an open group's axial unknown: first with the laterals as they would slip, then without
+/// them.
 LcpStatus PivotDriver::push_axial(int l) {
   PivotState::Group& g = s_.group(l);
   s_.tie_against_w(g);
   s_.role[size_t(l)] = Role::resting;
   const LcpStatus end = drive(l);
   if (end == LcpStatus::solved && s_.role[size_t(l)] == Role::resting && s_.z[l] <= 0) {
-    s_.open(g);  // excused: its w cannot be bettered
+    s_.open(g);  // excused: its w cannot be improved
     s_.excused[size_t(l)] = 1;
   }
   if (end != LcpStatus::ray || g.prescribed()) return end;
@@ -314,8 +316,8 @@ LcpStatus PivotDriver::correct(int l) {
   return drive(i);
 }
 
-/// Whether all conditions still hold when the clamped unknowns are solved for afresh. Those that
-/// were excused are looked at again.
+/// Whether all conditions still hold after the clamped unknowns are refined. Excused unknowns are
+/// checked again.
 bool PivotDriver::holds() {
   s_.refine();
   restore_bounds(s_);

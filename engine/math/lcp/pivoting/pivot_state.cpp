@@ -66,7 +66,8 @@ double PivotState::beyond(int i) const {
                                    : 0.0;
 }
 
-/// The column of i in the rows of the clamped unknowns, through L^-1, in y_; what remains of A_ii.
+/// Computes L^-1 times the column of i in the rows of the clamped unknowns, in y_; returns the
+/// Schur complement of A_ii.
 double PivotState::reduce(int i) {
   const double* column = problem.column(i);
   const auto& list = factor_.members();
@@ -75,7 +76,7 @@ double PivotState::reduce(int i) {
   return factor_.remainder(column[i], y_.data());
 }
 
-/// A tied lateral is part of its axial unknown.
+/// Matrix entry in which the columns of tied laterals are added to that of their axial unknown.
 double PivotState::tied_entry(int row, int column) const {
   double x = problem.at(row, column);
   if (!is_axial(column)) return x;

@@ -11,8 +11,8 @@
 namespace tumble::lcp {
 namespace {
 
-/// A group of a sweep: the axial unknown by itself, then the lateral ones by projected gradient
-/// steps of the length that their 2 x 2 block allows; w follows.
+/// Sweep of a group: the axial unknown separately, then the lateral ones by projected gradient
+/// steps with the length that their 2 x 2 block allows; w is updated.
 void sweep_group(const ConeGroup& g, const Square& A, Triple& x, Triple& w) {
   const auto change = [&](size_t i, double to) {
     const double by = to - x[i];

@@ -11,7 +11,7 @@
 namespace tumble::lcp {
 namespace {
 
-/// Whether a row of a unit says dz_i = -f_i and nothing else.
+/// Whether a row of a unit is simply dz_i = -f_i.
 bool says_itself(const UnitValue& value, size_t r) {
   for (size_t q = 0; q < 3; ++q)
     if (value.by_w[3 * r + q] != 0 || value.by_z[3 * r + q] != (q == r ? 1 : 0)) return false;
@@ -46,7 +46,8 @@ void DenseSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
               int(columns.size()), scaled_.n);
 }
 
-/// The row of a unit's r-th unknown in the linear system; what is known of dz goes to the right.
+/// Adds the row of a unit's r-th unknown to the linear system; terms of known dz go to the
+/// right-hand side.
 void DenseSystem::add_row(const ConeUnit& unit, const UnitValue& value, size_t r, double weight,
                           const VecX& dz) {
   const size_t m = active_.size(), own_row = size_t(place_[size_t(unit.row[r])]);
@@ -57,14 +58,14 @@ void DenseSystem::add_row(const ConeUnit& unit, const UnitValue& value, size_t r
     else
       right_[own_row] -= f * dz[unknown];
   };
-  // Each lateral row before the other one: mirror images are rounded alike.
+  // Each lateral row begins with its own entry, so that mirror images have the same rounding.
   const std::array<size_t, 3> order =
       r == 2 ? std::array<size_t, 3>{0, 2, 1} : std::array<size_t, 3>{0, 1, 2};
   for (const size_t q : order) {
     const double f = value.by_w[3 * r + q];
     if (f == 0) continue;
     const int i = unit.row[q];
-    // A symmetric A is not assumed: rows are read, though columns would be nearer.
+    // A need not be symmetric: rows are read, although columns would be contiguous.
     for (size_t c = 0; c < m; ++c) at(c) += f * scaled_.at(i, active_[c]);
     for (int j = 0; j < scaled_.n; ++j)
       if (place_[size_t(j)] < 0) right_[own_row] -= f * scaled_.at(i, j) * dz[j];
