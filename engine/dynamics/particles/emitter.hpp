@@ -21,8 +21,8 @@ struct Burst {
   double every = 1;  ///< time between bursts [s]
 };
 
-/// Emission by particles or bodies of an emitter: at an event, `count` particles or bodies of another
-/// emitter are born where it is, and may inherit its velocity.
+/// Emission by particles or bodies of an emitter: at an event, `count` particles or bodies of
+/// another emitter are born where it is, and may inherit its velocity.
 struct SpawnRule {
   enum class On : uint8_t {
     birth,
