@@ -46,14 +46,16 @@ class ParticleEmission {
         scratch_(state.workspace.emission),
         h_(state.settings.tick.tick()),
         end_(state.time_after()) {
-    for (const Emitter& e : s_.emitters.list)
+    for (const Emitter& e : s_.emitters.list) {
       eventful_ = eventful_ || (e.def && !e.def->events.empty());
+      masses_change_ = masses_change_ || (e.def && !e.def->mass_over_life.empty());
+    }
   }
 
   Status run() {
     scratch_.calls.clear();
-    empty(scratch_.dead);
-    empty(scratch_.born);
+    for (auto* list : {&scratch_.dead, &scratch_.born, &scratch_.shed, &scratch_.gained})
+      empty(*list);
     for (uint32_t k = 0; k < s_.particles.size(); ++k)
       if (s_.particle_ids.alive(k)) end_lives(k);
     if (eventful_) bodies_live();
@@ -65,7 +67,7 @@ class ParticleEmission {
     answer_calls();
     if (too_many_) return too_many(s_, *too_many_);
     for (ParticleSystem& p : s_.particles) age(p);
-    for (size_t k = 0; k < s_.particles.size(); ++k) change_masses(k);
+    for (size_t k = 0; masses_change_ && k < s_.particles.size(); ++k) change_masses(k);
     book();
     return {};
   }
@@ -352,7 +354,7 @@ class ParticleEmission {
       const double lost = p.mass[i] - p.born_mass[i] * over_life(e->def->mass_over_life, u);
       if (lost == 0) continue;
       if (i < scratch_.counts[k]) {  // others are booked as they are born
-        ParticleSystem& moved = lost > 0 ? scratch_.dead[k] : scratch_.born[k];
+        ParticleSystem& moved = lost > 0 ? scratch_.shed[k] : scratch_.gained[k];
         moved.add_copy(p, i);
         moved.mass.back() = std::fabs(lost);
       }
@@ -370,24 +372,26 @@ class ParticleEmission {
   }
 
   void book() {
-    bool any_born = false, any_dead = false;
     for (size_t k = 0; k < s_.particles.size(); ++k) {
       const ParticleSystem& p = s_.particles[k];
       for (size_t i = scratch_.counts[k]; i < p.size(); ++i) scratch_.born[k].add_copy(p, i);
-      any_born = any_born || scratch_.born[k].size() > 0;
-      any_dead = any_dead || scratch_.dead[k].size() > 0;
     }
-    if (any_born)
-      s_.ledger.book(LedgerLine::emission, entry_of(measure_particles(s_, scratch_.born), 1));
-    if (any_dead)
-      s_.ledger.book(LedgerLine::removal, entry_of(measure_particles(s_, scratch_.dead), -1));
+    book(LedgerLine::emission, scratch_.born, 1);
+    book(LedgerLine::emission, scratch_.gained, 1);
+    book(LedgerLine::removal, scratch_.dead, -1);
+    book(LedgerLine::removal, scratch_.shed, -1);
+  }
+  void book(LedgerLine line, std::vector<ParticleSystem>& moved, double sign) {
+    const bool any =
+        std::ranges::any_of(moved, [](const ParticleSystem& p) { return p.size() > 0; });
+    if (any) s_.ledger.book(line, entry_of(measure_particles(s_, moved), sign));
   }
 
   WorldState& s_;
   const TickBackup& start_;
   EmissionScratch& scratch_;
   double h_, end_;
-  bool eventful_ = false;
+  bool eventful_ = false, masses_change_ = false;
   const Emitter* too_many_ = nullptr;
 };
 

@@ -32,6 +32,8 @@ struct EmissionScratch {
   std::vector<uint32_t> places;    ///< likewise: its index after removal
   std::vector<size_t> counts;      ///< of particles, by system, before the births
   std::vector<ParticleSystem> born, dead;  ///< by system
+  /// By system: copies of particles that live on, each with the mass that it lost or gained.
+  std::vector<ParticleSystem> shed, gained;
 };
 
 }  // namespace tumble

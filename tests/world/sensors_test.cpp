@@ -228,6 +228,35 @@ TEST_CASE("the flow of a steady stream is rate times mass, from the nozzle to th
   }
 }
 
+TEST_CASE("particles that lose or gain mass pass a gate once, and those that have passed no more") {
+  for (const double end : {0.5, 2.0}) {
+    CAPTURE(end);
+    TestWorld w(weightless());
+    ParticleSystemDef system;
+    system.name = "smoke";
+    system.collide = false;
+    const auto smoke = w->create_particles(system);
+    REQUIRE(smoke.ok());
+    EmitterDef puff;
+    puff.name = "puff";
+    puff.particles = *smoke;
+    puff.bursts = {{0, 7, 1, 1}};
+    puff.life = {10};
+    puff.speed = {1};
+    puff.mass = {2};
+    puff.mass_over_life = {1, end};
+    REQUIRE(w->create_emitter(puff).ok());
+    w.apply();
+    const SensorId id = sensor(w, gate({SensorForm::disc, {1, 0, 0}}, {0, 0.5, 0}));
+    w.run(1);
+    const SensorFrame s = reading(*w.world, id);
+    CHECK(s.forward == 7);
+    CHECK(s.backward == 0);
+    // At an age of half a second, within a tick; of its life of 10 s that is a twentieth.
+    CHECK(s.mass_forward == doctest::Approx(7 * 2 * (1 + 0.05 * (end - 1))).epsilon(3e-3));
+  }
+}
+
 TEST_CASE("the flow ends when all that went through has come to rest, though nothing moves") {
   TestWorld w;
   w.ground();
