@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/dynamics/particles/emission_bounds.hpp"
+#include "engine/dynamics/particles/tolerances.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
@@ -14,6 +15,11 @@ namespace {
 
 /// Limit of the particles of one system, those emitted by events included; more end the run [-].
 constexpr size_t most_of_a_system = 20'000'000;
+
+/// Number of whole periods in a product of a rate and a time, which is as if exact.
+double whole_number(double x) {
+  return std::floor(x * (1 + tolerances::count_rounding));
+}
 
 LedgerEntry entry_of(const LedgerState& s, double sign) {
   return {sign * s.kinetic, sign * s.energy, sign * s.momentum, sign * s.angular_momentum};
@@ -131,11 +137,14 @@ class ParticleEmission {
   void live(uint32_t k) {
     const ParticleSystem& p = s_.particles[k];
     find_hits(k);
-    for (size_t i = 0; i < p.size(); ++i) {
+    const ParticleSystem& start = start_.particles()[k];
+    for (size_t i = 0, was = 0; i < p.size(); ++i) {
+      while (was < start.size() && start.id[was] < p.id[i]) ++was;  // ids ascend in both
       const Emitter* e = s_.emitters.find(p.emitter[i]);
       if (!e || e->def->events.empty()) continue;
       const double over = scratch_.gone[i] == dies ? p.age[i] - p.life[i] : 0;  // since its death
-      along_life(*e, p.age[i] - h_, p.age[i], p.life[i],
+      const bool was_there = was < start.size() && start.id[was] == p.id[i];
+      along_life(*e, was_there ? start.age[was] : 0, p.age[i], p.life[i],
                  [&](double ago) { return before(p, i, ago); });
       for (const SpawnRule& r : e->def->events) {
         if (r.on != SpawnRule::On::collision || !scratch_.hit[i] || scratch_.gone[i] != stays)
@@ -164,16 +173,19 @@ class ParticleEmission {
     }
   }
 
-  /// Births by the rules `life`, from one age to another. `at` gives position and velocity at a
-  /// time before the end of the tick.
+  /// Births by the rules `life` after one age and up to another. The first is to be the second of
+  /// the tick before, bit by bit, so that each birth is in one tick. `at` gives position and
+  /// velocity at a time before the end of the tick.
   template <class At>
   void along_life(const Emitter& e, double from, double to, double life, const At& at) {
     const double until = std::min(to, life);
     for (const SpawnRule& r : e.def->events) {
       if (r.on != SpawnRule::On::life || !(r.rate > 0)) continue;
-      const double last = std::floor(r.rate * until);
-      for (double n = std::floor(r.rate * std::max(from, 0.0)) + 1; n <= last; ++n)
-        call(r, at(to - n / r.rate), to - n / r.rate);
+      const double last = whole_number(r.rate * until);
+      for (double n = whole_number(r.rate * from) + 1; n <= last; ++n) {
+        const double ago = std::max(0.0, to - n / r.rate);
+        call(r, at(ago), ago);
+      }
     }
   }
 
@@ -217,7 +229,7 @@ class ParticleEmission {
     const auto at = [&](double ago) -> Past {
       return {interpolate(start_.pose(own.id.index), b.pose, 1 - ago / h_).x, b.v};
     };
-    along_life(e, age - h_, age, own.dies - own.born, at);
+    along_life(e, std::max(0.0, s_.time() - own.born), age, own.dies - own.born, at);
     if (b.asleep) return;  // it touches what it touched
     const auto [first, last] =
         std::ranges::equal_range(scratch_.body_hits, own.id.index, {}, &BodyHit::slot);

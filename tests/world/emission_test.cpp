@@ -312,6 +312,30 @@ TEST_CASE("what a particle gives birth to while it lives leaves an even trail") 
     CHECK(p.x[i].y() == doctest::Approx(5 * double(i + 1) / 100).epsilon(1e-9));
 }
 
+TEST_CASE("a particle gives birth as often as its rate and its life have it, at any tick") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  settings.tick = {240, 1};
+  TestWorld w(settings);
+  const ParticleSystemId heads = system_of(w), tail = system_of(w);
+  EmitterDef smoke = jet(tail);
+  smoke.rate = 0;
+  smoke.life = {0.1};
+  const EmitterId smoke_id = emitter(w, smoke);
+  EmitterDef head = jet(heads);
+  head.rate = 0;
+  head.bursts = {{0, 1}};
+  head.life = {10};
+  head.events = {{SpawnRule::On::life, smoke_id, 1, 60, false}};
+  emitter(w, head);
+  for (int n = 1; n <= 2410; ++n) {
+    w.step();
+    // One in four ticks; those in which births are due may be rounded either way.
+    if (n < 2400 && n % 4 == 2) REQUIRE(w->emitter(smoke_id)->made == uint64_t(n / 4));
+  }
+  CHECK(w->emitter(smoke_id)->made == 600);
+}
+
 TEST_CASE("rain dies on the ground and splashes") {
   TestWorld w;
   w.ground();

@@ -213,6 +213,27 @@ TEST_CASE("bodies leave particles at birth, along their way and at death, where 
             p.x, [&](const Vec3& x) { return std::fabs(x.y() - height(0.5)) < 4.0 / 60; }) >= 5);
 }
 
+TEST_CASE("a body gives birth as often as its rate has it, in the ticks that are due") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  settings.tick = {240, 1};
+  TestWorld w(settings);
+  EmitterDef smoke;
+  smoke.name = "puff";
+  smoke.particles = smoke_of(w);
+  smoke.life = {0.1};
+  const EmitterId puff = emitter(w, smoke);
+  EmitterDef def = feeder(0);
+  def.bursts = {{0, 1, 1, 1}};
+  def.speed = {1};
+  def.events = {{SpawnRule::On::life, puff, 1, 60, false}};
+  emitter(w, def);
+  for (uint64_t n = 1; n <= 2400; ++n) {
+    w.step();
+    REQUIRE(w->emitter(puff)->made == n / 4);
+  }
+}
+
 TEST_CASE("a body that strikes the ground raises dust there once, and again when it comes back") {
   for (const char* stepper : {"realtime", "event"}) {
     CAPTURE(stepper);
