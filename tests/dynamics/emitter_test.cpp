@@ -313,6 +313,15 @@ TEST_CASE("how many may be alive: by rate, bursts, life and events") {
   CHECK(std::isinf(most_alive(both, h)[1]));
   rocket.end = 10;
   CHECK(most_alive(both, h)[1] == 21);
+  // A rate that fades ends as well, and at most the greatest factor applies until then.
+  rocket.end = EmitterDef::for_ever;
+  rocket.start = 1;
+  rocket.over_time.rate.points = {{0, 3}, {5, 0.5}, {6, 0}};
+  CHECK(most_alive(both, h)[1] == 2 * 3 * (6 - 1) + 1);
+  rocket.start = 9;
+  CHECK(most_alive(both, h)[1] == 1);
+  rocket.over_time.rate.points.back().value = 0.1;
+  CHECK(std::isinf(most_alive(both, h)[1]));
 }
 
 TEST_CASE("definitions that cannot be are refused, with the value") {

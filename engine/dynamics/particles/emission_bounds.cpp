@@ -24,11 +24,19 @@ class Births {
   }
 
  private:
+  /// How long the rate may be above zero [s].
+  static double rate_span(const EmitterDef& d) {
+    const FactorCurve& factor = d.over_time.rate;
+    const bool fades = !factor.empty() && factor.points.back().value == 0;
+    const double end = fades ? std::min(d.end, factor.points.back().time) : d.end;
+    return std::max(0.0, end - d.start);
+  }
+
   /// Births by rate and bursts.
   static double own(const EmitterDef& d, double window) {
     double sum = 0;
     if (d.rate > 0) {
-      const double span = std::min(window, d.end - d.start);
+      const double span = std::min(window, rate_span(d));
       sum = span < without_end ? std::floor(d.rate * d.over_time.rate.most() * span) + 1
                                : without_end;
     }
