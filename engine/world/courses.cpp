@@ -108,11 +108,26 @@ Status check_force(const WorldState& s, uint32_t slot, ForceDef& scratch) {
   return {};
 }
 
-/// Wakes what a force acts on: without anchors and targets everything.
+void rouse_anchored(WorldState& s, const Anchor& a) {
+  if (a.kind == Anchor::Kind::body && s.bodies.find(a.body)) rouse(s, a.body.index);
+  if (a.kind == Anchor::Kind::particle && s.particle_ids.contains(a.particles))
+    s.particles[a.particles.index].wake_grains();
+}
+
+/// Wakes the grains of the systems between which a pair force acts; an empty list means all.
+void rouse_paired(WorldState& s, const std::vector<ParticleSystemId>& between) {
+  if (between.empty())
+    for (ParticleSystem& p : s.particles) p.wake_grains();
+  for (const ParticleSystemId id : between)
+    if (s.particle_ids.contains(id)) s.particles[id.index].wake_grains();
+}
+
+/// Wakes what a force acts on: without anchors, targets and pairs everything.
 void rouse_pulled(WorldState& s, const ForceDef& def) {
   const FieldTargets everything;
   const FieldTargets* targets = field_targets(def);
-  if (!targets && anchors(def).empty() && !paired_systems(def)) targets = &everything;
+  const std::vector<ParticleSystemId>* between = paired_systems(def);
+  if (!targets && anchors(def).empty() && !between) targets = &everything;
   if (targets) {
     const ForceContext context = s.force_context();
     const RigidBody* first = s.bodies.bodies.data();
@@ -120,8 +135,8 @@ void rouse_pulled(WorldState& s, const ForceDef& def) {
         *targets, context, [&](RigidBody& b) { rouse(s, uint32_t(&b - first)); },
         [](ParticleSystem& p) { p.wake_grains(); });
   }
-  for (const Anchor& a : anchors(def))
-    if (a.kind == Anchor::Kind::body && s.bodies.find(a.body)) rouse(s, a.body.index);
+  if (between) rouse_paired(s, *between);
+  for (const Anchor& a : anchors(def)) rouse_anchored(s, a);
 }
 
 double gained(WorldState& s, uint32_t slot) {

@@ -178,6 +178,44 @@ TEST_CASE("a force wakes what rests when its course begins to change") {
   CHECK(w.body(box).pose.x.x() > 0.1);
 }
 
+TEST_CASE("a pair force and a load wake resting grains when their course begins to change") {
+  for (const bool load : {false, true}) {
+    CAPTURE(load);
+    TestWorld w;
+    w.ground();
+    ParticleSystemDef def;
+    def.name = "grains";
+    def.grains = GrainDef{0.1, 0.05};
+    def.charge = 1;
+    for (const double x : {0.0, 0.1}) {
+      ParticleDef p;
+      p.radius = 0.01;
+      p.mass = 0.01;
+      p.x = {x, 0.01, 0};
+      def.particles.push_back(p);
+    }
+    const auto id = w->create_particles(def);
+    REQUIRE_MESSAGE(id.ok(), why_not(id));
+    w.apply();
+    const ParticleSystem& p = *w->particles(*id);
+    if (load) {
+      LoadDef pull;
+      pull.anchor = {Anchor::Kind::particle, {}, *id, p.id[1], Vec3::Zero()};
+      pull.force = {*TimeCourse::table({{0, 0}, {3, 0}, {3.5, 0.5}}), 0, 0};
+      w.force(pull);
+    } else {
+      CoulombDef repulsion;
+      repulsion.between = {*id};
+      repulsion.strength = *TimeCourse::table({{0, 0}, {3, 0}, {3.5, 0.01}});
+      w.force(repulsion);
+    }
+    w.run(2.8);
+    CHECK(p.rest[1].asleep());
+    w.run(1);
+    CHECK(p.x[1].x() > 0.12);
+  }
+}
+
 TEST_CASE("forces go on from a snapshot and from the replay log, bit by bit") {
   for (const char* stepper : {"realtime", "event"}) {
     Lab lab(stepper, 60, {0, 1, 0});
