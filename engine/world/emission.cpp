@@ -236,14 +236,24 @@ class ParticleEmission {
     for (auto hit = first; hit != last; ++hit) {
       if (std::ranges::binary_search(own.touching, hit->other)) continue;
       const Past there{hit->x, b.v + b.omega.cross(hit->x - b.pose.x)};
-      for (const SpawnRule& r : e.def->events) {
-        if (r.on != SpawnRule::On::collision) continue;
-        call(r, there, 0);
-        if (r.dies) own.dies = end_;
+      if (collide(e, there)) {  // what it meets besides meets one that is gone
+        own.dies = end_;
+        break;
       }
     }
     own.touching.clear();
     for (auto hit = first; hit != last; ++hit) own.touching.push_back(hit->other);
+  }
+
+  /// Calls for the births of a body's collision; whether it dies of it.
+  bool collide(const Emitter& e, const Past& there) {
+    bool ends = false;
+    for (const SpawnRule& r : e.def->events) {
+      if (r.on != SpawnRule::On::collision) continue;
+      call(r, there, 0);
+      ends = ends || r.dies;
+    }
+    return ends;
   }
 
   /// What presses against bodies whose collisions are events, one place for each pair.

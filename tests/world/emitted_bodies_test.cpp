@@ -307,6 +307,27 @@ TEST_CASE("particles give birth to bodies, bodies to bodies, and a body dies of 
   CHECK(w->emitter(chips)->bodies.empty());
 }
 
+TEST_CASE("a shell that lands on two tiles at once bursts once") {
+  TestWorld w;
+  for (const double x : {-0.5, 0.5}) {
+    BodyDef tile = TestWorld::box_def({x, -0.1, 0}, {0.5, 0.1, 0.5});
+    tile.type = BodyType::fixed;
+    w.add(tile);
+  }
+  const ParticleSystemId smoke = smoke_of(w);
+  const EmitterId puff = puffs(w, smoke), spark = puffs(w, smoke);
+  EmitterDef shell = feeder(0);
+  shell.pose.x = {0, 0.3, 0};
+  shell.bursts = {{0, 1, 1, 1}};
+  shell.events = {{SpawnRule::On::collision, puff, 3, 0, true},
+                  {SpawnRule::On::collision, spark, 1, 0, false}};
+  emitter(w, shell);
+  w.run(0.5);  // it falls for 0.2 s
+  CHECK(w->find_body("part[0]").is_null());
+  CHECK(w->emitter(puff)->made == 3);
+  CHECK(w->emitter(spark)->made == 1);  // all rules of the one collision
+}
+
 TEST_CASE("a body that a sink takes calls for others, in the same bits for any threads") {
   std::vector<uint64_t> hashes;
   for (const int threads : {1, 4}) {
