@@ -4,9 +4,11 @@
 #include "engine/dynamics/particles/emission_bounds.hpp"
 #include "engine/dynamics/particles/tolerances.hpp"
 #include "engine/math/rotation.hpp"
+#include "engine/world/sensors/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -233,16 +235,16 @@ class ParticleEmission {
     if (b.asleep) return;  // it touches what it touched
     const auto [first, last] =
         std::ranges::equal_range(scratch_.body_hits, own.id.index, {}, &BodyHit::slot);
+    const std::vector<BodyId> before = std::exchange(own.touching, {});
+    bool dead = false;
     for (auto hit = first; hit != last; ++hit) {
-      if (std::ranges::binary_search(own.touching, hit->other)) continue;
-      const Past there{hit->x, b.v + b.omega.cross(hit->x - b.pose.x)};
-      if (collide(e, there)) {  // what it meets besides meets one that is gone
-        own.dies = end_;
-        break;
-      }
+      const bool touched = std::ranges::binary_search(before, hit->other);
+      if (!touched && !hit->presses) continue;
+      own.touching.push_back(hit->other);
+      // What it meets besides, meets one that is gone.
+      if (!touched && !dead) dead = collide(e, {hit->x, b.v + b.omega.cross(hit->x - b.pose.x)});
     }
-    own.touching.clear();
-    for (auto hit = first; hit != last; ++hit) own.touching.push_back(hit->other);
+    if (dead) own.dies = end_;
   }
 
   /// Calls for the births of a body's collision; whether it dies of it.
@@ -256,7 +258,14 @@ class ParticleEmission {
     return ends;
   }
 
-  /// What presses against bodies whose collisions are events, one place for each pair.
+  /// Whether a contact goes on if it was one before: its gap is that of a rattle.
+  bool near(const Contact& c) const {
+    const double rattle = tolerances::rattle_gap * s_.settings.gravity.norm() * h_ * h_;
+    return std::ranges::any_of(c.used(), [&](const ContactPoint& p) { return p.gap <= rattle; });
+  }
+
+  /// What presses against bodies whose collisions are events, or is near them, one place for each
+  /// pair.
   void find_body_hits() {
     std::vector<BodyHit>& hits = scratch_.body_hits;
     hits.clear();
@@ -276,15 +285,20 @@ class ParticleEmission {
     if (!any) return;
     for (const Contact& c : std::as_const(s_.contacts).contacts()) {
       const uint32_t a = c.key.body_a, b = c.key.body_b;
-      if (std::max(a, b) >= waits.size() || !(waits[a] || waits[b]) || !c.pressed()) continue;
+      if (std::max(a, b) >= waits.size() || !(waits[a] || waits[b])) continue;
+      const bool presses = c.pressed();
+      if (!presses && !near(c)) continue;
       int pressed = 0;
       while (pressed + 1 < c.count && contact_impulse(c, pressed).isZero(0)) ++pressed;
       const Vec3 x = contact_position(c, pressed, s_.bodies.bodies);
-      if (waits[a]) hits.push_back({a, s_.bodies.ids.at(b), x});
-      if (waits[b]) hits.push_back({b, s_.bodies.ids.at(a), x});
+      if (waits[a]) hits.push_back({a, s_.bodies.ids.at(b), presses, x});
+      if (waits[b]) hits.push_back({b, s_.bodies.ids.at(a), presses, x});
     }
     const auto pair = [](const BodyHit& hit) { return std::pair(hit.slot, hit.other); };
-    std::ranges::stable_sort(hits, {}, pair);
+    const auto pressing_first = [](const BodyHit& hit) {
+      return std::tuple(hit.slot, hit.other, !hit.presses);
+    };
+    std::ranges::stable_sort(hits, {}, pressing_first);
     const auto twice = std::ranges::unique(hits, {}, pair);
     hits.erase(twice.begin(), twice.end());
   }

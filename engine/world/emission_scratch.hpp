@@ -15,10 +15,12 @@ struct SpawnCall {
   int count = 1;
 };
 
-/// A body whose collisions are events, and something that presses against it.
+/// A body whose collisions are events, and something that presses against it or is so near that it
+/// goes on touching what it touched.
 struct BodyHit {
   uint32_t slot = 0;
   BodyId other;
+  bool presses = true;
   Vec3 x = Vec3::Zero();  ///< where [m]
 };
 

@@ -307,6 +307,31 @@ TEST_CASE("particles give birth to bodies, bodies to bodies, and a body dies of 
   CHECK(w->emitter(chips)->bodies.empty());
 }
 
+TEST_CASE("a body that leaves the ground by less than it rattles does not strike it anew") {
+  TestWorld w;
+  w.ground();
+  const EmitterId puff = puffs(w, smoke_of(w));
+  EmitterDef def = feeder(0);
+  def.pose.x = {0, 0.15, 0};
+  def.bursts = {{0, 1, 1, 1}};
+  def.events = {{SpawnRule::On::collision, puff, 1, 0, false}};
+  emitter(w, def);
+  w.run(0.4);
+  REQUIRE(w->emitter(puff)->made == 1);
+  const BodyId part = w->find_body("part[0]");
+  const auto lift = [&](double height) {
+    Pose pose = w.body(part).pose;
+    pose.x.y() += height;
+    REQUIRE(w->set_pose(part, pose).ok());
+    w.run(0.4);
+  };
+  const double fall = 9.81 / 60 / 60;  // g h^2
+  lift(0.8 * fall);
+  CHECK(w->emitter(puff)->made == 1);
+  lift(8 * fall);
+  CHECK(w->emitter(puff)->made == 2);
+}
+
 TEST_CASE("a shell that lands on two tiles at once bursts once") {
   TestWorld w;
   for (const double x : {-0.5, 0.5}) {
