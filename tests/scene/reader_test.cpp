@@ -160,6 +160,9 @@ TEST_CASE("names: repeated, malformed, missing") {
                 {5, "forces.f.b.particles", "unknown particle system 'y'"}});
   check_faults(scene_with("\"forces\": {\n\"f\": {\"type\": \"spring\", \"a\": {}}}"),
                {{3, "forces.f", "the key 'b' is missing"}});
+  check_faults(scene_with("\"forces\": {\n\"f\": {\"type\": \"load\", \"anchor\": {}, \"force\": "
+                          "[1, 0, 0]}}"),
+               {{3, "forces.f", "must be on a body or a particle"}});
 }
 
 TEST_CASE("a microscope names an algorithm, and bodies that there are") {

@@ -164,6 +164,30 @@ TEST_CASE("a thrust turns with its body, and a torque spins it up") {
   }
 }
 
+TEST_CASE("loads that cannot act are refused") {
+  Lab lab("realtime");
+  LoadDef load;
+  load.force = Vec3(1, 0, 0);
+  const auto says = [&lab](const LoadDef& def, const char* part) {
+    CHECK(def.fault().find(part) != std::string::npos);
+    CHECK_FALSE(lab->create_force(def).ok());
+  };
+  says(load, "on a body or a particle");
+  load.anchor = lab.on_ball();
+  load.torque = Vec3(0, 1, 0);
+  load.body_axes = true;
+  CHECK(load.fault().empty());
+  CHECK(lab->create_force(load).ok());
+  load.anchor.kind = Anchor::Kind::particle;
+  says(load, "torque");
+  load.torque = {0, 0, over_time("t")};  // none yet
+  says(load, "torque");
+  load.torque = {};
+  says(load, "axes");
+  load.body_axes = false;
+  CHECK(load.fault().empty());
+}
+
 TEST_CASE("a force wakes what rests when its course begins to change") {
   TestWorld w;
   w.ground();

@@ -5,6 +5,14 @@
 
 namespace tumble {
 
+std::string LoadDef::fault() const {
+  if (anchor.kind == Anchor::Kind::body) return {};
+  if (anchor.kind == Anchor::Kind::world) return "its anchor must be on a body or a particle";
+  if (torque.varies() || !torque.now().isZero(0)) return "only a body can have a torque";
+  if (body_axes) return "only a body has axes for body_axes";
+  return {};
+}
+
 void apply(const LoadDef& def, ForceContext& context) {
   const Vec3 force = def.force.now();
   if (def.anchor.kind != Anchor::Kind::body) return add_force(def.anchor, force, context);

@@ -2,6 +2,7 @@
 #include "engine/dynamics/forces/force_context.hpp"
 #include "engine/math/varying.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace tumble {
@@ -14,6 +15,9 @@ struct LoadDef {
   VaryingVec3 force;       ///< [N]
   VaryingVec3 torque;      ///< [N m]
   bool body_axes = false;  ///< whether force and torque are along the body's axes
+
+  /// Empty, or why it cannot act as it is.
+  std::string fault() const;
 
   template <class Visitor, class Self>
   static void parameters(Visitor& v, Self& d) {

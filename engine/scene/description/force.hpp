@@ -53,6 +53,16 @@ struct AnchoredDescription {
     v.object(d.anchor, {.name = "anchor", .required = true, .doc = "what is pulled"});
     v.part(d.force);
   }
+  static void check(const AnchoredDescription& d, Complaints& complaints) {
+    if constexpr (requires { d.force.fault(); }) {
+      Def force = d.force;
+      if (!d.anchor.body.empty())
+        force.anchor.kind = Anchor::Kind::body;
+      else if (!d.anchor.particles.empty())
+        force.anchor.kind = Anchor::Kind::particle;
+      if (const std::string fault = force.fault(); !fault.empty()) complaints.add("", fault);
+    }
+  }
 };
 
 /// A field and the names of what it acts on: a body with copies means all of them.
