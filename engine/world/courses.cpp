@@ -110,8 +110,10 @@ Status check_force(const WorldState& s, uint32_t slot, ForceDef& scratch) {
 
 void rouse_anchored(WorldState& s, const Anchor& a) {
   if (a.kind == Anchor::Kind::body && s.bodies.find(a.body)) rouse(s, a.body.index);
-  if (a.kind == Anchor::Kind::particle && s.particle_ids.contains(a.particles))
-    s.particles[a.particles.index].wake_grains();
+  if (a.kind != Anchor::Kind::particle || !s.particle_ids.contains(a.particles)) return;
+  ParticleSystem& p = s.particles[a.particles.index];
+  const size_t i = p.grains ? p.find(a.particle) : p.size();
+  if (i < p.size() && p.rest[i].asleep()) p.rest[i] = {};
 }
 
 /// Wakes the grains of the systems between which a pair force acts; an empty list means all.
