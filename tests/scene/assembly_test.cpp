@@ -6,6 +6,7 @@
 
 #include "engine/math/rotation.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -222,4 +223,24 @@ TEST_CASE("an axis that stands otherwise on the other body is turned to it") {
   REQUIRE(off.scene.warnings.size() == 2);
   CHECK(off.scene.warnings[0].find("joints.hinge: its ends begin 0.1 m off; the run takes") == 0);
   CHECK(off.scene.warnings[1].find("joints.hinge: its ends begin 5.7") == 0);
+}
+
+TEST_CASE("a cloth that is pinned to a body that is moved starts unstretched") {
+  const Assembled s(
+      R"("bodies": {"ball": {"shape": {"type": "sphere", "radius": 0.1}, "position": [0, 3, 0]}},
+    "joints": {"rod": {"kind": "distance", "b": "ball", "length": 2}},
+    "particles": {"flag": {"cloth": {"corner": [0, 2, 0], "across": [1, 0, 0], "down": [0, -1, 0],
+      "columns": 5, "rows": 5, "pins": [{"row": 0, "column": 0, "body": "ball"}]}}})");
+  CHECK((s.body("ball").pose.x - Vec3(0, 2, 0)).norm() < 1e-12);
+  REQUIRE(s.scene.forces.size() == 1);
+  const auto* cloth =
+      std::get_if<SpringMeshDef>(s.scene.world->force(s.scene.forces.begin()->second));
+  REQUIRE(cloth);
+  double worst = 0;
+  for (const SpringMesh::Link& link : cloth->mesh->links) {
+    const Vec3 a = start_of(cloth->mesh->nodes[link.a], *s.scene.world);
+    const Vec3 b = start_of(cloth->mesh->nodes[link.b], *s.scene.world);
+    worst = std::max(worst, std::fabs((b - a).norm() - link.rest_length));
+  }
+  CHECK(worst < 1e-12);
 }
