@@ -244,3 +244,23 @@ TEST_CASE("a cloth that is pinned to a body that is moved starts unstretched") {
   }
   CHECK(worst < 1e-12);
 }
+
+TEST_CASE("limits that pull others along until assembly gives up are a fault, by name") {
+  // A train with play in its couplings, whose first car is taken away: each round of assembly pulls
+  // one more car.
+  const auto train = [](int cars) {
+    return fmt::format(
+        R"("bodies": {{"car": {{"shape": {{"type": "sphere", "radius": 0.1}},
+        "repeat": {{"type": "stack", "count": {}, "step": [1, 0, 0]}}}}}},
+      "joints": {{"stop": {{"kind": "rigid", "b": "car[0]", "anchor_b": [-10, 0, 0]}},
+        "hook": {{"kind": "prismatic", "a": "car[i]", "b": "car[i+1]", "axis": [1, 0, 0], "count": {},
+          "limits": {{"lower": -0.1, "upper": 0.1}}}}}})",
+        cars, cars - 1);
+  };
+  const Assembled brief(train(5));
+  CHECK((brief.body("car[4]").pose.x - Vec3(13.6, 0, 0)).norm() < 1e-10);
+  const Assembled far_off(train(24));
+  REQUIRE(far_off.faults.size() == 1);
+  CHECK(far_off.faults[0].path == "joints");
+  CHECK(far_off.faults[0].message.find("limits of hook[19] are still passed") != std::string::npos);
+}
