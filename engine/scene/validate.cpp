@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -224,9 +225,21 @@ class ReferenceCheck {
   }
   void radial(const RadialDescription& d, const std::string& path) {
     systems(d.particles, path + ".particles");
-    for (const std::string& name : d.particles) {
+    std::optional<Vec3> size;  // of the box of the first; where it is does not change distances
+    for (size_t i = 0; i < d.particles.size(); ++i) {
+      const std::string& name = d.particles[i];
+      const std::string at = fmt::format("{}.particles[{}]", path, i);
+      const auto before = d.particles.begin() + ptrdiff_t(i);
+      if (std::find(d.particles.begin(), before, name) != before)
+        return sink_(at, "'" + name + "' is named twice");
       const ParticleSystemDescription* p = scene_.particles.find(name);
-      if (!p || !p->periodic_box) continue;
+      if (!p) continue;
+      const Vec3 own = p->periodic_box ? p->periodic_box->size : Vec3(Vec3::Zero());
+      if (size && *size != own)
+        return sink_(at, "its periodic box is of another size than that of '" + d.particles[0] +
+                             "', so that distances between their particles mean nothing");
+      size = own;
+      if (!p->periodic_box) continue;
       for (int k = 0; k < 3; ++k)
         if (const double edge = p->periodic_box->size[k]; edge > 0 && d.range > 0.5 * edge)
           return sink_(

@@ -111,6 +111,30 @@ TEST_CASE("g(r) counts the pairs that two loops count, also in boxes of few cell
   CHECK(radial_distribution({}, {}, 1, 3) == std::vector<double>(3, 0.0));
 }
 
+TEST_CASE("g(r) from some of the points is that from all, to its noise") {
+  const Vec3 low(0, 0, 0), size(1, 1.2, 0.9);
+  const std::vector<Vec3> points = random_points(4000, low, size);
+  constexpr double range = 0.3;
+  for (const PeriodicBox& box : {PeriodicBox{low, size}, PeriodicBox{}}) {
+    const auto all = radial_distribution(points, box, range, 5);
+    const auto some = radial_distribution(points, box, range, 5, 1e6);
+    CHECK(some != all);
+    for (size_t k = 1; k < 5; ++k) CHECK(some[k] == doctest::Approx(all[k]).epsilon(0.05));
+    CHECK(some == radial_distribution(points, box, range, 5, 1e6));
+  }
+}
+
+TEST_CASE("g(r) has an answer for ranges and places that no cell can be numbered for") {
+  const std::vector<Vec3> points = {Vec3(0, 0, 0), Vec3(0.5, 0, 0), Vec3(1e300, 0, 0),
+                                    Vec3(0, -1e300, 0)};
+  const std::vector<double> none(4, 0.0);
+  CHECK(radial_distribution(points, {}, 1e-12, 4) == none);
+  CHECK(radial_distribution(points, {Vec3::Zero(), Vec3(2, 2, 2)}, 1e-300, 4) == none);
+  const std::vector<double> pair = radial_distribution(points, {}, 1, 4);
+  CHECK(pair[2] > 0);  // the two that are half a metre apart
+  CHECK(pair[0] + pair[1] + pair[3] == 0);
+}
+
 TEST_CASE("the temperature of a system is the mean square of a component, whatever all do") {
   Random random(1, 2);
   ParticleSystemDef def;

@@ -6,6 +6,7 @@
 
 #include "engine/math/rotation.hpp"
 #include "engine/scene/build.hpp"
+#include "engine/scene/build/force_defs.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
@@ -222,4 +223,44 @@ TEST_CASE("an axis that stands otherwise on the other body is turned to it") {
   REQUIRE(off.scene.warnings.size() == 2);
   CHECK(off.scene.warnings[0].find("joints.hinge: its ends begin 0.1 m off; the run takes") == 0);
   CHECK(off.scene.warnings[1].find("joints.hinge: its ends begin 5.7") == 0);
+}
+
+TEST_CASE("a cloth that is pinned to a body that is moved starts unstretched") {
+  const Assembled s(
+      R"("bodies": {"ball": {"shape": {"type": "sphere", "radius": 0.1}, "position": [0, 3, 0]}},
+    "joints": {"rod": {"kind": "distance", "b": "ball", "length": 2}},
+    "particles": {"flag": {"cloth": {"corner": [0, 2, 0], "across": [1, 0, 0], "down": [0, -1, 0],
+      "columns": 5, "rows": 5, "pins": [{"row": 0, "column": 0, "body": "ball"}]}}})");
+  CHECK((s.body("ball").pose.x - Vec3(0, 2, 0)).norm() < 1e-12);
+  REQUIRE(s.scene.forces.size() == 1);
+  const auto* cloth =
+      std::get_if<SpringMeshDef>(s.scene.world->force(s.scene.forces.begin()->second));
+  REQUIRE(cloth);
+  double worst = 0;
+  for (const SpringMesh::Link& link : cloth->mesh->links) {
+    const Vec3 a = start_of(cloth->mesh->nodes[link.a], *s.scene.world);
+    const Vec3 b = start_of(cloth->mesh->nodes[link.b], *s.scene.world);
+    worst = std::max(worst, std::fabs((b - a).norm() - link.rest_length));
+  }
+  CHECK(worst < 1e-12);
+}
+
+TEST_CASE("limits that pull others along until assembly gives up are a fault, by name") {
+  // A train with play in its couplings, whose first car is taken away: each round of assembly pulls
+  // one more car.
+  const auto train = [](int cars) {
+    return fmt::format(
+        R"("bodies": {{"car": {{"shape": {{"type": "sphere", "radius": 0.1}},
+        "repeat": {{"type": "stack", "count": {}, "step": [1, 0, 0]}}}}}},
+      "joints": {{"stop": {{"kind": "rigid", "b": "car[0]", "anchor_b": [-10, 0, 0]}},
+        "hook": {{"kind": "prismatic", "a": "car[i]", "b": "car[i+1]", "axis": [1, 0, 0], "count": {},
+          "limits": {{"lower": -0.1, "upper": 0.1}}}}}})",
+        cars, cars - 1);
+  };
+  const Assembled brief(train(5));
+  CHECK((brief.body("car[4]").pose.x - Vec3(13.6, 0, 0)).norm() < 1e-10);
+  const Assembled far_off(train(24));
+  REQUIRE(far_off.faults.size() == 1);
+  CHECK(far_off.faults[0].path == "joints");
+  CHECK(far_off.faults[0].message.find("limits of hook[19] are still passed") != std::string::npos);
 }

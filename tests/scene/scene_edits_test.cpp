@@ -4,6 +4,7 @@
 
 #include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
+#include "engine/math/time_course.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/description/placement.hpp"
 #include "engine/scene/reader.hpp"
@@ -179,6 +180,31 @@ TEST_CASE("bodies, joints and springs that were added and removed are saved") {
       built(saved(small, "small.json", {ChangedSettings{settings, lunar}}), "small.json");
   CHECK(moon.world->settings().gravity.y() == -1.62);
   CHECK(moon.world->settings().realtime.substeps == 7);
+}
+
+TEST_CASE("a spring that is added keeps the courses of its numbers and its radius") {
+  AddedSpring spring;
+  spring.name = "pull";
+  spring.b = "ball";
+  auto formula = TimeCourse::expression("12 + t");
+  auto table = TimeCourse::table({{0, 1}, {2, 3}});
+  REQUIRE(formula.ok());
+  REQUIRE(table.ok());
+  spring.def.stiffness = *formula;
+  spring.def.rest_length = *table;
+  spring.def.damping = 0.5;
+  spring.def.cable_radius = 0.02;
+  const BuiltScene again = built(saved(small, "small.json", {spring}), "small.json");
+  REQUIRE(again.forces.contains("pull"));
+  const auto* def = std::get_if<SpringDef>(again.world->force(again.forces.at("pull")));
+  REQUIRE(def);
+  REQUIRE(def->stiffness.varies());
+  CHECK(def->stiffness.course->at(5) == 17);
+  REQUIRE(def->rest_length.varies());
+  CHECK(def->rest_length.course->at(1) == 2);
+  CHECK_FALSE(def->damping.varies());
+  CHECK(def->damping == 0.5);
+  CHECK(def->cable_radius == 0.02);
 }
 
 TEST_CASE("what acts at a joint is saved, and taken away, where the file has it") {

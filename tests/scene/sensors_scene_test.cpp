@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 using namespace tumble;
 
 namespace {
@@ -112,6 +114,28 @@ TEST_CASE("faults of sensors say where") {
   CHECK(sensor_fault("\"type\": \"contact\", \"a\": \"ball\", \"b\": \"ball\"")
             .find("sensors.it.b: a and b are the same body") != std::string::npos);
   CHECK(sensor_fault("\"type\": \"contact\", \"b\": \"ball\"").find("sensors.it") !=
+        std::string::npos);
+}
+
+TEST_CASE("a radial distribution takes each system once, of boxes of one size") {
+  const auto fault = [](const char* systems, double edge_of_b) {
+    const std::string box = R"("list": [{"position": [0, 0, 0]}], "periodic_box": {"size": )";
+    const SceneRead read = read_scene(
+        scene_with(
+            "\"particles\": {\"a\": {" + box + "[2, 2, 2], \"centre\": [1, 0, 0]}}, \"b\": {" +
+            box + fmt::format("[2, 2, {}]", edge_of_b) +
+            "}}},\n\"sensors\": {\"it\": {\"type\": \"radial_distribution\", \"range\": 0.5, "
+            "\"particles\": " +
+            systems + "}}"),
+        data_file("x.json"));
+    std::vector<Fault> faults = read.faults;
+    if (read.ok()) (void)build_world(read.scene, {}, nullptr, &faults);
+    return all_text(faults);
+  };
+  CHECK(fault(R"(["a", "b"])", 2) == "");
+  CHECK(fault(R"(["a", "a"])", 2).find("sensors.it.particles[1]: 'a' is named twice") !=
+        std::string::npos);
+  CHECK(fault(R"(["a", "b"])", 3).find("sensors.it.particles[1]: its periodic box is of another") !=
         std::string::npos);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 
 /// Constants of this folder that are no settings: unit, reason, and source where there is one.
 namespace tumble::tolerances {
@@ -10,6 +11,14 @@ inline constexpr double neighbour_rounding = 1e-5;
 /// Points this many cells from the origin are refused [-]: beyond 2^53 neighbouring cells could not
 /// be told apart.
 inline constexpr double most_cells = 9.0e15;
+/// Pairs of points that a radial distribution looks at [-]: less than a second on one core. Ten
+/// times fewer already give each of a hundred shells to a percent.
+inline constexpr double most_radial_pairs = 2e7;
+/// What it takes to find the points of a cell in a sorted list, in pairs that are looked at [-].
+inline constexpr double radial_lookup = 20;
+/// Points from which the work of a radial distribution is estimated [-]: a cluster with so small a
+/// share of all points that none of these is in it has no more than a millionth of all pairs.
+inline constexpr size_t radial_samples = 1024;
 /// Coordinate of padding that is near nothing, relative to a cell [m]: its square is finite in
 /// single precision.
 inline constexpr float far_coordinate = 1e18f;

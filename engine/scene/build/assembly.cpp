@@ -70,11 +70,16 @@ class Assembly {
     }
   }
 
-  std::vector<std::pair<std::string, std::string>> open_joints() const;
+  /// After close_all() gave false: a fault for each joint that is open, or, where all are closed,
+  /// one about the limits that are still passed.
+  std::vector<std::pair<std::string, std::string>> faults() const;
   void tell(const World& world, std::vector<std::string>& out) const;
   void put(World& world) const;
 
  private:
+  std::vector<std::pair<std::string, std::string>> open_joints() const;
+  std::pair<std::string, std::string> passed_limits() const;
+
   void renew_rows() {
     const std::vector<uint32_t> joints = first_numbers(held_.joints.size());
     const std::vector<uint32_t> couplings = first_numbers(held_.couplings.size());
@@ -136,7 +141,7 @@ class Assembly {
 
   /// A coordinate beyond a hard limit follows nothing, at the limit: x = 0 y + limit.
   bool add_passed_limits() {
-    bool any = false;
+    first_passed_ = held_.couplings.size();
     for (uint32_t j = 0; j < held_.joints.size(); ++j) {
       Joint joint = held_.joints[j];
       follow_coordinates(joint, held_.bodies, 0);
@@ -146,16 +151,16 @@ class Assembly {
         const bool passed = x < l.lower - closed * size_ || x > l.upper + closed * size_;
         if (!l.hard() || !passed) continue;
         held_.couplings.push_back({j, j, k, k, 0, limit});
-        any = true;
       }
     }
-    return any;
+    return held_.couplings.size() > first_passed_;
   }
 
   JointedBodies held_;
   std::vector<uint32_t> slots_;
   std::vector<BodyStart> start_;
-  double size_ = 1;  ///< [m]
+  double size_ = 1;          ///< [m]
+  size_t first_passed_ = 0;  ///< the couplings from this one on are limits found passed last
   Articulation rows_;
 };
 
@@ -186,6 +191,23 @@ std::vector<std::pair<std::string, std::string>> Assembly::open_joints() const {
                     "or make lengths and limits that do)",
                     couples ? "its coupling or limit" : "its ends", couples ? "s" : "", left));
   }
+  return out;
+}
+
+std::pair<std::string, std::string> Assembly::passed_limits() const {
+  std::string names;
+  for (size_t i = first_passed_; i < held_.couplings.size(); ++i)
+    names += (names.empty() ? "" : ", ") + held_.names[held_.couplings[i].a];
+  return {"joints",
+          fmt::format("cannot be assembled: with the joints closed and limits kept {} times over, "
+                      "limits of {} are still passed (place the bodies nearer to where they fit, "
+                      "or make limits that do)",
+                      most_limit_rounds, names)};
+}
+
+std::vector<std::pair<std::string, std::string>> Assembly::faults() const {
+  auto out = open_joints();
+  if (out.empty()) out.push_back(passed_limits());
   return out;
 }
 
@@ -222,7 +244,7 @@ void Assembly::put(World& world) const {
 std::vector<std::pair<std::string, std::string>> assemble(BuiltScene& built) {
   if (built.joints.empty()) return {};
   Assembly assembly(built);
-  if (!assembly.close_all()) return assembly.open_joints();
+  if (!assembly.close_all()) return assembly.faults();
   assembly.hold_velocities();
   assembly.tell(*built.world, built.assembly);
   assembly.put(*built.world);

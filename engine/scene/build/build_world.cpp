@@ -398,13 +398,18 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.create_world(std::move(extras), std::move(shapes));
   builder.read_meshes();
   builder.add_bodies();
+  builder.apply();
+  if (stop_requested()) return stopped_error();
+  // Before whatever is pinned or fitted to bodies: assembly moves them.
+  if (found.empty()) {
+    builder.add_joints();
+    builder.add_couplings();
+    builder.assemble_joints();
+  }
   builder.add_particles();
   builder.apply();
   if (stop_requested()) return stopped_error();
   if (!found.empty()) return fail();
-  builder.add_joints();
-  builder.add_couplings();
-  builder.assemble_joints();
   builder.add_emitters();
   builder.add_sinks();
   builder.add_sensors();

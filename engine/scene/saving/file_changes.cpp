@@ -162,12 +162,14 @@ void FileChanges::operator()(const AddedSpring& c) {
     out["point"] = to_json(anchor.point);
     return out;
   };
-  const Json out = {{"type", "spring"},
-                    {"a", end(c.def.a, c.a)},
-                    {"b", end(c.def.b, c.b)},
-                    {"stiffness", c.def.stiffness.value},
-                    {"damping", c.def.damping.value},
-                    {"rest_length", c.def.rest_length.value}};
+  SpringDef def = c.def;  // leaves refer to what may be changed
+  Json out = {{"type", "spring"},
+              {"a", end(def.a, c.a)},
+              {"b", end(def.b, c.b)},
+              {"stiffness", to_json(Leaf(&def.stiffness))},
+              {"damping", to_json(Leaf(&def.damping))},
+              {"rest_length", to_json(Leaf(&def.rest_length))}};
+  if (def.cable_radius != 0) out["cable_radius"] = def.cable_radius;
   set(Path{} / "forces" / c.name, out);
 }
 

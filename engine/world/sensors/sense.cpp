@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -229,17 +230,21 @@ void fill_region(const WorldState& s, const SensorDef& def, SensorFrame& out) {
   }
 }
 
-/// At what distances from each other the particles are now. They are in one box, or in none.
+/// At what distances from each other the particles are now. Particles in boxes of different sizes,
+/// which a scene may not ask for, have no distances.
 void fill_radial(const WorldState& s, const SensorDef& def, SensorFrame& out) {
   std::vector<Vec3> points;
   std::optional<PeriodicBox> box;
+  bool one_box = true;
   for (const ParticleSystemId id : def.only_systems) {
     if (!s.particle_ids.contains(id)) continue;
     const ParticleSystem& p = s.particles[id.index];
     points.insert(points.end(), p.x.begin(), p.x.end());
-    box = !box || *box == p.box ? p.box : PeriodicBox{};
+    if (!box) box = p.box;
+    one_box = one_box && box->size == p.box.size;
   }
-  out.gone = !box;
+  out.gone = !box || !one_box;
+  if (out.gone) points.clear();
   out.shells = radial_distribution(points, box.value_or(PeriodicBox{}), def.range, def.shells);
 }
 

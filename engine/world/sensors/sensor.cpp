@@ -1,5 +1,6 @@
 #include "engine/world/sensors/sensor.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -74,6 +75,9 @@ Status validate(const SensorDef& def) {
       return fault(
           fmt::format("shells must be 1 to {}, got {}", SensorDef::most_shells, def.shells));
     if (def.only_systems.empty()) return fault("a radial distribution is of particle systems");
+    for (auto it = def.only_systems.begin(); it != def.only_systems.end(); ++it)
+      if (std::find(def.only_systems.begin(), it, *it) != it)
+        return fault("a particle system is named twice");
     return {};
   }
   if (!def.pose.x.allFinite() || !def.pose.q.coeffs().allFinite())
