@@ -175,4 +175,8 @@ TEST_CASE("an interrupted run goes on from its last state, to the same bits") {
         5);
   // With something that is of the whole run it is simulated from the start, and compared.
   CHECK(s.simulate("part", {"--seconds", "0.7", "--resume", "--csv", s.at("e.csv")}).code == 0);
+  // The end of a run that is there already is simulated again: what a tick counted is in no state.
+  const ProgramRun ended =
+      s.simulate("part", {"--steps", "40", "--resume", "--assert", "contacts > 0"});
+  CHECK_MESSAGE(ended.code == 0, ended.err);
 }
