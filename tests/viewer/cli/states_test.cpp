@@ -133,6 +133,9 @@ TEST_CASE("states of another scene, of too few ticks or damaged ones are refused
   const ProgramRun finer = drawn({"--fps", "60"});
   CHECK(finer.code == 2);
   CHECK(mentions(finer.err, "30/s"));
+  const ProgramRun finest = drawn({"--fps", "1000000000000"});
+  CHECK(finest.code == 2);
+  CHECK(mentions(finest.err, "it must be 1 to"));
   CHECK(drawn({"--seconds", "2"}).code == 2);
   const ProgramRun arrows = drawn({"--overlay", "total_forces"});
   CHECK(arrows.code == 2);
@@ -154,6 +157,22 @@ TEST_CASE("states of another scene, of too few ticks or damaged ones are refused
   const ProgramRun another = drawn({});
   CHECK(another.code == 2);
   CHECK(mentions(another.err, "another scene"));
+}
+
+TEST_CASE("a list of states with rates that no frame can be timed by is none") {
+  const TempFolder folder;
+  StateList list;
+  REQUIRE(write_state_list(folder.path(), list).ok());
+  CHECK(read_state_list(folder.path()).ok());
+  for (int64_t* term : {&list.fps.num, &list.fps.den, &list.rate.num, &list.rate.den}) {
+    const int64_t good = *term;
+    for (const int64_t bad : {int64_t{0}, greatest_term + 1}) {
+      *term = bad;
+      REQUIRE(write_state_list(folder.path(), list).ok());
+      CHECK_FALSE(read_state_list(folder.path()).ok());
+    }
+    *term = good;
+  }
 }
 
 TEST_CASE("an interrupted run goes on from its last state, to the same bits") {

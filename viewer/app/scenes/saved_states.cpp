@@ -92,7 +92,9 @@ Result<LoadedScene> SavedStates::load_scene(SceneRequest request, const std::str
                          "Tumble",
                          (folder_ / state_list_name).string(),
                          "they were made of '" + list_.scene + "'; simulate it anew"};
-  if (start_of_run(*scene->built.world, version) != list_.start) return another;
+  const World& world = *scene->built.world;
+  if (start_of_run(world, version) != list_.start || world.settings().tick != list_.rate)
+    return another;
   if (changes.empty()) return scene;
   const auto as_simulated = scene->built.world->frame();
   request.overrides.insert(request.overrides.end(), changes.begin(), changes.end());
@@ -104,10 +106,7 @@ Result<LoadedScene> SavedStates::load_scene(SceneRequest request, const std::str
 }
 
 uint64_t SavedStates::frames_at(Fraction fps) const {
-  const uint64_t last = list_.states.back().tick;
-  uint64_t frames = 0;
-  while (frame_time(frames, fps, list_.rate).last_tick() <= last) ++frames;
-  return frames;
+  return frames_until(list_.states.back().tick, fps, list_.rate);
 }
 
 Status SavedStates::check_frames(uint64_t frames, Fraction fps, bool each) const {
