@@ -103,7 +103,9 @@ TEST_CASE("states are drawn in other colours and light; what moves the world is 
     for (const std::string& set : sets) all.insert(all.end(), {"--set", set});
     return s.render(out, all);
   };
-  const std::vector<std::string> changes = {"bodies.ball.colour=\"#ff0000\"", "look.exposure=2",
+  // The crate is there only as the copies that an emitter makes.
+  const std::vector<std::string> changes = {"bodies.ball.colour=\"#ff0000\"",
+                                            "bodies.crate.colour=\"#00ff00\"", "look.exposure=2",
                                             "particles.drops.look.range=[0,9]"};
   REQUIRE(drawn("plain", {}).code == 0);
   const ProgramRun changed = drawn("changed", changes);
