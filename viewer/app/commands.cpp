@@ -56,6 +56,19 @@ std::string misspelt_command(std::span<const std::string> arguments) {
   return unknown_name("command or scene", word, names);
 }
 
+/// What to do where a word was not expected: the value of a flag may only follow after "=".
+std::string cure_of_extras(const CLI::App& command, std::span<const std::string> arguments) {
+  for (size_t i = 0; i + 1 < arguments.size(); ++i) {
+    const std::string &name = arguments[i], &next = arguments[i + 1];
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (!option || !name.starts_with("--") || next.starts_with('-')) continue;
+    const bool takes_value =
+        option->get_expected_max() == 0 && option->get_flag_value(name.substr(2), "") != "true";
+    if (takes_value) return fmt::format("if {1} is the value of {0}, write {0}={1}; ", name, next);
+  }
+  return {};
+}
+
 /// The code of a command, unless what it printed could not be written.
 int flushed(int code) {
   std::cout.flush();
@@ -121,8 +134,11 @@ int run_command_line(std::span<const std::string> arguments) {
   } catch (const CLI::ParseError& fault) {
     const auto used = app.get_subcommands();
     const std::string help = used.empty() ? "tumble" : "tumble " + used.front()->get_name();
-    return report({ErrorCode::invalid_argument, fault.what(), {}, "see `" + help + " --help`"},
-                  exit_usage);
+    const bool extras = dynamic_cast<const CLI::ExtrasError*>(&fault) && !used.empty();
+    const std::string cure = extras ? cure_of_extras(*used.front(), arguments) : "";
+    return report(
+        {ErrorCode::invalid_argument, fault.what(), {}, cure + "see `" + help + " --help`"},
+        exit_usage);
   }
   return action ? run_action(action) : flushed(exit_usage);
 }

@@ -1,5 +1,6 @@
 #include "viewer/capture/frame_clock.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -10,7 +11,6 @@ namespace tumble {
 namespace {
 
 __extension__ using Wide = __int128;
-constexpr int64_t largest = 1'000'000'000'000;
 
 /// Reads digits with at most one point; false when there is anything else or too much of it.
 bool read_decimal(std::string_view text, int64_t& num, int64_t& den) {
@@ -22,18 +22,21 @@ bool read_decimal(std::string_view text, int64_t& num, int64_t& den) {
       point = true;
       continue;
     }
-    if (c < '0' || c > '9' || num > largest || den > largest) return false;
+    if (c < '0' || c > '9' || num > greatest_term || den > greatest_term) return false;
     digits = true;
     num = 10 * num + (c - '0');
     if (point) den *= 10;
   }
-  return digits && num <= largest;
+  return digits && num <= greatest_term;
+}
+
+uint64_t bounded(Wide n) {
+  constexpr auto most = Wide(std::numeric_limits<int64_t>::max());
+  return uint64_t(n < most ? n : most);
 }
 
 uint64_t rounded(Wide num, Wide den) {
-  const Wide n = (2 * num + den) / (2 * den);
-  constexpr auto most = Wide(std::numeric_limits<int64_t>::max());
-  return uint64_t(n < most ? n : most);
+  return bounded((2 * num + den) / (2 * den));
 }
 
 }  // namespace
@@ -45,7 +48,7 @@ Result<Fraction> parse_fraction(std::string_view text, std::string_view name, bo
       read_decimal(text.substr(0, slash), n1, d1) &&
       (slash == std::string_view::npos || read_decimal(text.substr(slash + 1), n2, d2));
   const Wide num = Wide(n1) * d2, den = Wide(d1) * n2;
-  if (!fine || den == 0 || (num == 0 && !allow_zero) || num > largest || den > largest)
+  if (!fine || den == 0 || (num == 0 && !allow_zero) || num > greatest_term || den > greatest_term)
     return Error{ErrorCode::invalid_argument,
                  fmt::format("{}: '{}' is not a {} number of up to 12 digits", name, text,
                              allow_zero ? "non-negative" : "positive"),
@@ -69,6 +72,12 @@ FrameTime frame_time(uint64_t k, Fraction fps, TickRate rate) {
   scale_den /= a;
   const Wide position = Wide(k) * scale_num;
   return {uint64_t(position / scale_den), int64_t(position % scale_den), int64_t(scale_den)};
+}
+
+uint64_t frames_until(uint64_t tick, Fraction fps, TickRate rate) {
+  // The greatest k with k fps.den rate.num <= tick fps.num rate.den, and frame 0.
+  const Wide last = std::min(tick, uint64_t{1} << 40);
+  return bounded(last * fps.num * rate.den / (Wide(fps.den) * rate.num) + 1);
 }
 
 double frame_seconds(uint64_t k, Fraction fps) {

@@ -7,6 +7,9 @@
 
 namespace tumble {
 
+/// Greatest numerator and denominator of a fraction that is read.
+inline constexpr int64_t greatest_term = 1'000'000'000'000;
+
 /// A positive fraction in lowest terms.
 struct Fraction {
   int64_t num = 1;
@@ -33,6 +36,9 @@ struct FrameTime {
 
 /// Frame k is the state at k / fps: integer arithmetic, so that it never drifts.
 FrameTime frame_time(uint64_t k, Fraction fps, TickRate rate);
+/// How many frames can be shown once `tick`, at most 2^40, has been simulated; terms of the rates
+/// are at most `greatest_term`.
+uint64_t frames_until(uint64_t tick, Fraction fps, TickRate rate);
 /// k / fps [s].
 double frame_seconds(uint64_t k, Fraction fps);
 /// round(seconds * fps), halves upwards.

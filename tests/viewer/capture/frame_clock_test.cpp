@@ -43,6 +43,18 @@ TEST_CASE("the farthest frame does not overflow") {
   CHECK(t.tick == 100'000'000'000'000'000ull);
 }
 
+TEST_CASE("frames until a tick are those that counting one by one finds") {
+  for (const Fraction fps : {Fraction{30, 1}, {60, 1}, {25, 1}, {30000, 1001}, {1000, 7}, {1, 3}})
+    for (const TickRate rate : {TickRate{60, 1}, {240, 1}, {1000, 3}})
+      for (const uint64_t tick : {0, 1, 2, 59, 60, 1001}) {
+        uint64_t counted = 0;
+        while (frame_time(counted, fps, rate).last_tick() <= tick) ++counted;
+        CHECK(frames_until(tick, fps, rate) == counted);
+      }
+  CHECK(frames_until(60, {greatest_term, 1}, {60, 1}) == uint64_t(greatest_term) + 1);
+  CHECK(frames_until(~uint64_t{0}, {greatest_term, 1}, {1, greatest_term}) == (~uint64_t{0} >> 1));
+}
+
 TEST_CASE("counts round half up") {
   CHECK(frame_count({2, 1}, {30, 1}) == 60);
   CHECK(frame_count({1, 60}, {30, 1}) == 1);

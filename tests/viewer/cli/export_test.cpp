@@ -234,6 +234,10 @@ TEST_CASE("bad words and scenes without particles are 2, an unwritable folder 5"
   CHECK(mentions(bad.err, "ply"));
   CHECK(exported("a", {"--seconds", "1", "--fps", "-3"}).code == 2);
   CHECK(tumble_program({"simulate", exported.scene, "--seconds", "1", "--resume"}).code == 2);
+  const ProgramRun both =
+      exported("a", {"--steps", "1", "--states", exported.out("x").string() + "/../a/"});
+  CHECK(both.code == 2);
+  CHECK(mentions(both.err, "two different folders"));
   CHECK_FALSE(std::filesystem::exists(exported.out("a")));
   const std::string bare = write_text(exported.folder / "bare.json", small_scene());
   const auto to = exported.out("b").string();

@@ -316,6 +316,9 @@ TEST_CASE("an open mesh is wrapped when asked, and has volume, pieces and a fiel
         doctest::Approx(m["volume"].get<double>()).epsilon(1e-9));
   for (const char* bad : {"--wrap=no", "--wrap=-1", "--wrap=1e9"})
     CHECK(tumble_program({"mesh", tray, bad}).code == 2);
+  const ProgramRun apart = tumble_program({"mesh", tray, "--wrap", "0.1"});
+  CHECK(apart.code == 2);
+  CHECK(mentions(apart.err, "write --wrap=0.1;"));
   CHECK(tumble_program({"mesh", tray, "--out", out}).code == 2);
   CHECK(tumble_program({"mesh", tray, "--wrap", "--wrap-cell", "1e-6"}).code == 3);
 }

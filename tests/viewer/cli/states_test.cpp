@@ -103,7 +103,9 @@ TEST_CASE("states are drawn in other colours and light; what moves the world is 
     for (const std::string& set : sets) all.insert(all.end(), {"--set", set});
     return s.render(out, all);
   };
-  const std::vector<std::string> changes = {"bodies.ball.colour=\"#ff0000\"", "look.exposure=2",
+  // The crate is there only as the copies that an emitter makes.
+  const std::vector<std::string> changes = {"bodies.ball.colour=\"#ff0000\"",
+                                            "bodies.crate.colour=\"#00ff00\"", "look.exposure=2",
                                             "particles.drops.look.range=[0,9]"};
   REQUIRE(drawn("plain", {}).code == 0);
   const ProgramRun changed = drawn("changed", changes);
@@ -133,6 +135,9 @@ TEST_CASE("states of another scene, of too few ticks or damaged ones are refused
   const ProgramRun finer = drawn({"--fps", "60"});
   CHECK(finer.code == 2);
   CHECK(mentions(finer.err, "30/s"));
+  const ProgramRun finest = drawn({"--fps", "1000000000000"});
+  CHECK(finest.code == 2);
+  CHECK(mentions(finest.err, "it must be 1 to"));
   CHECK(drawn({"--seconds", "2"}).code == 2);
   const ProgramRun arrows = drawn({"--overlay", "total_forces"});
   CHECK(arrows.code == 2);
@@ -156,6 +161,22 @@ TEST_CASE("states of another scene, of too few ticks or damaged ones are refused
   CHECK(mentions(another.err, "another scene"));
 }
 
+TEST_CASE("a list of states with rates that no frame can be timed by is none") {
+  const TempFolder folder;
+  StateList list;
+  REQUIRE(write_state_list(folder.path(), list).ok());
+  CHECK(read_state_list(folder.path()).ok());
+  for (int64_t* term : {&list.fps.num, &list.fps.den, &list.rate.num, &list.rate.den}) {
+    const int64_t good = *term;
+    for (const int64_t bad : {int64_t{0}, greatest_term + 1}) {
+      *term = bad;
+      REQUIRE(write_state_list(folder.path(), list).ok());
+      CHECK_FALSE(read_state_list(folder.path()).ok());
+    }
+    *term = good;
+  }
+}
+
 TEST_CASE("an interrupted run goes on from its last state, to the same bits") {
   const States s;
   REQUIRE(s.simulate("whole", {"--seconds", "0.7"}).code == 0);
@@ -175,4 +196,8 @@ TEST_CASE("an interrupted run goes on from its last state, to the same bits") {
         5);
   // With something that is of the whole run it is simulated from the start, and compared.
   CHECK(s.simulate("part", {"--seconds", "0.7", "--resume", "--csv", s.at("e.csv")}).code == 0);
+  // The end of a run that is there already is simulated again: what a tick counted is in no state.
+  const ProgramRun ended =
+      s.simulate("part", {"--steps", "40", "--resume", "--assert", "contacts > 0"});
+  CHECK_MESSAGE(ended.code == 0, ended.err);
 }

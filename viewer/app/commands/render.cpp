@@ -47,11 +47,7 @@ Error no_frames() {
 
 /// Frames until the end of a replay.
 uint64_t frames_of_replay(const ReplayPlayer& player, const FramesFile& plan) {
-  uint64_t frames = 1;
-  while (frame_time(frames, plan.fps, plan.rate).last_tick() <= player.last_tick() &&
-         frames < most_frames)
-    ++frames;
-  return frames;
+  return std::min(frames_until(player.last_tick(), plan.fps, plan.rate), most_frames);
 }
 
 /// Whether the run may have a replay, which would say how many frames there are.
@@ -71,13 +67,14 @@ Status parse_plan(const RenderLine& line, const SavedStates* states, FramesFile&
     plan.fps = states->list().fps;
   }
   if (auto size = parse_picture_size(line.size, plan.width, plan.height); !size) return size;
-  if (!line.frames && line.seconds.empty()) {
-    if (states) plan.frames_wanted = states->frames_at(plan.fps);
-    if (states || may_play(line)) return {};
-  }
-  if (line.frames.has_value() == !line.seconds.empty()) return no_frames();
+  const bool by_seconds = !line.seconds.empty();
+  if (line.frames && by_seconds) return no_frames();
   if (line.frames) {
     plan.frames_wanted = *line.frames;
+  } else if (!by_seconds) {
+    if (!states && may_play(line)) return {};
+    if (!states) return no_frames();
+    plan.frames_wanted = states->frames_at(plan.fps);
   } else {
     const auto seconds = parse_fraction(line.seconds, "--seconds", true);
     if (!seconds) return seconds.error();

@@ -4,6 +4,7 @@
 #include "viewer/app/options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,13 @@ Result<double> cell_of(const std::string& text) {
   const auto cell = parse_fraction(text, "--surface");
   if (!cell) return cell.error();
   return cell->value();
+}
+
+/// A folder under one name, whether it is there yet or not.
+std::filesystem::path one_name(const std::string& folder) {
+  std::error_code code;
+  const auto whole = std::filesystem::absolute(std::filesystem::path(folder) / "", code);
+  return std::filesystem::weakly_canonical(whole, code) / "";
 }
 
 }  // namespace
@@ -63,6 +71,10 @@ std::pair<Option, Option> declare_export(Options& options, ExportLine& line) {
 
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
                                              const LoadedScene& scene, uint64_t ticks) {
+  if (!line.folder.empty() && !line.states.empty() &&
+      one_name(line.folder) == one_name(line.states))
+    return Error{ErrorCode::invalid_argument, "--export and --states write into the same folder",
+                 line.states, "give two different folders"};
   const auto fps = parse_fraction(line.fps, "--fps");
   if (!fps) return fps.error();
   ParticleExportOptions out;

@@ -16,7 +16,7 @@ struct ExportLine {
 std::pair<Option, Option> declare_export(Options& options, ExportLine& line);
 
 /// What they ask of a run of so many ticks: round(seconds * fps) frames, at least the first one.
-/// Error `invalid_argument` for a bad rate.
+/// Error `invalid_argument` for a bad rate, and for one folder for particles and states.
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
                                              const LoadedScene& scene, uint64_t ticks);
 

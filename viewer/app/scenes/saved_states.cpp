@@ -92,22 +92,24 @@ Result<LoadedScene> SavedStates::load_scene(SceneRequest request, const std::str
                          "Tumble",
                          (folder_ / state_list_name).string(),
                          "they were made of '" + list_.scene + "'; simulate it anew"};
-  if (start_of_run(*scene->built.world, version) != list_.start) return another;
+  const World& world = *scene->built.world;
+  if (start_of_run(world, version) != list_.start || world.settings().tick != list_.rate)
+    return another;
   if (changes.empty()) return scene;
   const auto as_simulated = scene->built.world->frame();
   request.overrides.insert(request.overrides.end(), changes.begin(), changes.end());
   auto shown = load_scene_and_world(request);
   if (!shown) return shown.error();
   looks_ = shown->built.world->frame();
+  for (const auto& [name, id] : shown->built.emitters)
+    if (const Emitter* emitter = shown->built.world->emitter(id); emitter && emitter->def->body)
+      emitters_.emplace_back(id, emitter->def);
   if (Status known = check_ranges(*as_simulated, *looks_); !known) return known.error();
   return shown;
 }
 
 uint64_t SavedStates::frames_at(Fraction fps) const {
-  const uint64_t last = list_.states.back().tick;
-  uint64_t frames = 0;
-  while (frame_time(frames, fps, list_.rate).last_tick() <= last) ++frames;
-  return frames;
+  return frames_until(list_.states.back().tick, fps, list_.rate);
 }
 
 Status SavedStates::check_frames(uint64_t frames, Fraction fps, bool each) const {
@@ -160,6 +162,21 @@ Result<std::shared_ptr<const Frame>> SavedStates::frame_at(World& world,
   return std::shared_ptr<const Frame>(*std::move(frame));
 }
 
+void SavedStates::take_looks_of_copies(const World& world, std::vector<BodyInfo>& infos) const {
+  for (const auto& [id, def] : emitters_) {
+    const Emitter* emitter = world.emitter(id);
+    if (!emitter || emitter->def->name != def->name) continue;
+    const bool own_colours = !def->colours.empty() || !def->over_time.colour.empty();
+    for (const Emitter::OwnBody& copy : emitter->bodies) {
+      if (copy.id.index >= infos.size() || infos[copy.id.index].id != copy.id) continue;
+      Look& look = infos[copy.id.index].look;
+      const Vec3f drawn = look.colour;
+      look = def->body->look;
+      if (own_colours) look.colour = drawn;
+    }
+  }
+}
+
 void SavedStates::take_looks(const World& world, Frame& frame) const {
   auto infos = std::make_shared<std::vector<BodyInfo>>(*frame.infos);
   for (size_t slot = 0; slot < infos->size() && slot < looks_->body_slots(); ++slot) {
@@ -169,6 +186,7 @@ void SavedStates::take_looks(const World& world, Frame& frame) const {
     info.look = now.look;
     info.drawn = now.drawn;
   }
+  take_looks_of_copies(world, *infos);
   frame.infos = std::move(infos);
   for (auto& shown : frame.particles) {
     const auto now = std::ranges::find_if(looks_->particles, [&](const auto& system) {

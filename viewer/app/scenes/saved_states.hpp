@@ -3,6 +3,8 @@
 #include "viewer/capture/states/state_list.hpp"
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 
@@ -34,10 +36,13 @@ class SavedStates {
  private:
   Result<std::shared_ptr<const Frame>> frame_at(World& world, const SavedState& state) const;
   void take_looks(const World& world, Frame& frame) const;
+  void take_looks_of_copies(const World& world, std::vector<BodyInfo>& infos) const;
 
   std::filesystem::path folder_;
   StateList list_;
   std::shared_ptr<const Frame> looks_;  ///< the scene at its start, where looks were changed
+  /// Its emitters of bodies then, whose templates say how the copies look.
+  std::vector<std::pair<EmitterId, std::shared_ptr<const EmitterDef>>> emitters_;
 };
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include "viewer/capture/atomic_file.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 #include <fmt/format.h>
@@ -77,8 +78,10 @@ Status StateExport::make_room() {
 }
 
 Status StateExport::skip(World& world) {
-  if (list_.states.empty()) return {};
-  const auto content = read_state(options_.folder, list_.states.back());
+  const auto later =
+      std::ranges::lower_bound(list_.states, options_.last_tick, {}, &SavedState::tick);
+  if (later == list_.states.begin()) return {};
+  const auto content = read_state(options_.folder, *std::prev(later));
   if (!content) return content.error();
   return world.load(snapshot_of(std::as_bytes(std::span(*content))));
 }

@@ -29,7 +29,8 @@ class StateExport {
   static Result<StateExport> begin(const StateExportOptions& options);
 
   /// The last state that is there brings the world on to its tick, for a resumed run from whose
-  /// beginning nothing else is wanted.
+  /// beginning nothing else is wanted; the last before the run's end, so that a tick is left to
+  /// simulate: a world that was only loaded has no statistics of a tick.
   Status skip(World& world);
   /// To be called at tick 0 and after every tick. Error `internal`: resumed, but the simulation is
   /// not the one that was interrupted.

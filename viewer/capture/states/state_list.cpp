@@ -46,8 +46,14 @@ StateList list_of(const StatesJson& json) {
   return out;
 }
 
+/// Positive, and within what the times of frames are counted in.
+bool is_term(int64_t number) {
+  return number > 0 && number <= greatest_term;
+}
+
 bool is_sound(const StateList& list) {
-  return list.fps.num > 0 && list.fps.den > 0 && list.rate.num > 0 && list.rate.den > 0 &&
+  return is_term(list.fps.num) && is_term(list.fps.den) && is_term(list.rate.num) &&
+         is_term(list.rate.den) &&
          std::ranges::is_sorted(list.states, std::less_equal<>{}, &SavedState::tick);
 }
 
