@@ -1,6 +1,7 @@
 // Which side of an open mesh a shape is on. Reference: plain geometry; every shape here is placed
 // on one side by construction, apart from the mesh or overlapping it a little.
 #include "engine/collision/narrow_phase.hpp"
+#include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/geometry/make_mesh.hpp"
 #include "tests/collision/support.hpp"
 
@@ -111,4 +112,24 @@ TEST_CASE("a box behind one-sided terrain is held there, overlapping or not") {
     CHECK(found.count > 0);
     CHECK(found.least > 0.5);
   }
+}
+
+TEST_CASE("an open surface seen from behind has its normals reversed, and ridges for valleys") {
+  const auto ground =
+      mesh(make_mesh::terrain(4, 8, [](double x, double z) { return x * x - z * z; }));
+  const MeshSurface &front = ground->polyhedral()->surface(),
+                    &back = ground->polyhedral()->reversed();
+  const auto &f = front.topology, &b = back.topology;
+  REQUIRE(f.edges.size() == b.edges.size());
+  int ridges = 0, valleys = 0;
+  for (size_t e = 0; e < f.edges.size(); ++e) {
+    CHECK(f.edges[e].vertices == b.edges[e].vertices);
+    CHECK((f.edges[e].normal + b.edges[e].normal).norm() < 1e-12);
+    const EdgeBend bend = f.edges[e].bend;
+    ridges += bend == EdgeBend::convex, valleys += bend == EdgeBend::concave;
+    CHECK((b.edges[e].bend == EdgeBend::convex) == (bend == EdgeBend::concave));
+    CHECK((b.edges[e].bend == EdgeBend::open) == (bend == EdgeBend::open));
+  }
+  CHECK(ridges > 0);
+  CHECK(valleys > 0);
 }
