@@ -100,4 +100,11 @@ TEST_CASE("wraps are kept by content: the same from the cache, made anew when it
   options.gap = 0.5;
   CHECK(cache.wrap(mesh, options).ok());
   CHECK(Files(std::filesystem::directory_iterator(cache.folder()), {}).size() == 2);
+  // What cannot be made is refused for what was given, and nothing is kept of it.
+  options.gap = -1;
+  const auto refused = cache.wrap(mesh, options);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().text().find("gap of a wrap must be >= 0") != std::string::npos);
+  CHECK_FALSE(cache.wrap(std::make_shared<const TriangleMesh>(), {}).ok());
+  CHECK(Files(std::filesystem::directory_iterator(cache.folder()), {}).size() == 2);
 }

@@ -73,10 +73,10 @@ Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
 
 WrapOptions complete(WrapOptions o, const Aabb& bounds) {
   const double size = bounds.extent().maxCoeff();
-  if (!(o.gap > 0)) o.gap = size / 12;
-  if (!(o.cell > 0))
+  if (o.gap == 0) o.gap = size / 12;
+  if (o.cell == 0)
     o.cell = o.offset > 0 ? o.offset / 2 : std::clamp(o.gap / 4, size / 128, size / 40);
-  if (!(o.offset > 0)) o.offset = 2 * o.cell;
+  if (o.offset == 0) o.offset = 2 * o.cell;
   return o;
 }
 

@@ -29,7 +29,8 @@ struct WrapOptions {
   Crew* crew = nullptr;  ///< the wrap is the same, bit by bit, with any or none
 };
 
-/// What is taken where nothing is given, of a mesh with these bounds.
+/// What is taken where nothing is given, of a mesh with these bounds; options that are out of range
+/// stay so.
 WrapOptions complete(WrapOptions options, const Aabb& bounds);
 
 /// How a wrap lies about its mesh. Distances are sampled at corners and evenly over the surfaces.
