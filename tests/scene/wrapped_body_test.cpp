@@ -76,6 +76,26 @@ TEST_CASE(
   CHECK(all_text(faults).find("meshes.s.wrap") != std::string::npos);
 }
 
+TEST_CASE("shapes that ask for the same wrap of a mesh share it, and it is told of once") {
+  const SheetScene files;
+  const auto body = [](const std::string& name, const std::string& gap) {
+    return '"' + name + R"(": {"shape": {"type": "mesh", "mesh": "s", "mode": "convex_hull", )" +
+           R"("wrap": {"offset": 0.2, "cell": 0.1, "gap": )" + gap + R"(}}, "density": 1000})";
+  };
+  const SceneRead read =
+      files.read(R"("meshes": {"s": "sheet.obj"}, "bodies": {)" + body("a", "0.01") + ", " +
+                 body("b", "0.01") + ", " + body("c", "0.02") + "}");
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  std::vector<Fault> faults;
+  auto made = build_world(read.scene, {}, nullptr, &faults);
+  INFO(all_text(faults));
+  REQUIRE(made.ok());
+  CHECK(std::ranges::count_if(made->warnings, [](const std::string& w) {
+          return w.find("wrapped in") != std::string::npos;
+        }) == 2);
+}
+
 TEST_CASE("wraps are kept by content: the same from the cache, made anew when it is damaged") {
   const SheetScene files;
   const auto imported = import_mesh(files.folder.path() / "sheet.obj");
