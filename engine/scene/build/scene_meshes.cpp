@@ -7,7 +7,6 @@
 #include "engine/scene/resources.hpp"
 
 namespace tumble {
-
 namespace {
 
 /// As SceneMeshes::wrapped().
