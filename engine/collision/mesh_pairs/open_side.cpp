@@ -34,8 +34,8 @@ class SeenSurface {
         x_(S.R.transpose() * (other.x - S.x)),
         touching_(1e-9 * (s_.size + other_.size)) {}
 
-  /// `ids` are the triangles of S that are near the triangle.
-  /// Farther away than `reach` it has none: S may be nearer there.
+  /// Of a triangle of the other; `ids` are the triangles of S that are near it. Farther away than
+  /// `reach` it has none: S may be nearer there.
   Side side_of(uint32_t triangle, const std::vector<uint32_t>& ids, double reach) const {
     const std::array<Vec3, 3> t = corners(triangle);
     double least = everywhere;
@@ -60,14 +60,11 @@ class SeenSurface {
     return behind ? Side::behind : Side::unknown;
   }
 
-  /// Whether the centre of the other is clearly behind the near triangles of S; `pairs` are those
-  /// of lies_behind().
-  bool centre_behind(const std::vector<TriangleIds>& pairs,
-                     const std::vector<uint32_t>& ids) const {
-    const Vec3 centre = point(other_.tree->bounds().centre());
-    const NearestFeature near = nearest_feature(s_, centre, ids, everywhere);
-    if (near.triangle == no_index) return false;
-    const double depth = -near.normal.dot(centre - near.point);
+  Vec3 centre() const { return point(other_.tree->bounds().centre()); }
+  /// Whether the centre of the other, whose nearest feature is given, is clearly behind S; `pairs`
+  /// are those of lies_behind().
+  bool centre_behind(const NearestFeature& near, const std::vector<TriangleIds>& pairs) const {
+    const double depth = near.normal.dot(near.point - centre());
     if (depth <= least_cosine * near.distance || depth <= touching_) return false;
     double in_front = 0;
     for (const TriangleIds& pair : pairs)
@@ -86,7 +83,8 @@ class SeenSurface {
     const NearestFeature near = nearest_feature(s_, p, ids, everywhere);
     if (near.triangle == no_index || near.normal.isZero(0)) return Side::unknown;
     const double height = near.normal.dot(p - near.point);
-    return height < -least_cosine * near.distance ? Side::behind : Side::front;
+    if (height > touching_) return Side::front;
+    return height < -least_cosine * near.distance ? Side::behind : Side::unknown;
   }
   Side side_of_plane(const std::array<Vec3, 3>& t, uint32_t id) const {
     double front = 0, behind = 0;
@@ -112,23 +110,26 @@ bool lies_behind(const PlacedSurface& S, const PlacedSurface& other, bool convex
   if (S.s.closed) return false;
   thread_local std::vector<uint32_t> ids;
   const SeenSurface seen(S, other);
-  bool front = false, behind = false;
-  for (size_t first = 0; first < pairs.size() && !front && !stop_requested();) {
+  NearestFeature of_centre;
+  if (convex) {
+    ids.clear();
+    for (const TriangleIds& pair : swapped)
+      if (ids.empty() || ids.back() != pair.a) ids.push_back(pair.a);
+    of_centre = nearest_feature(S.s, seen.centre(), ids, everywhere);
+    if (!of_centre.inside) return false;
+  }
+  bool behind = false;
+  for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t triangle = pairs[first].a;
     ids.clear();
     for (; first < pairs.size() && pairs[first].a == triangle; ++first)
       ids.push_back(pairs[first].b);
     charge_work(ids.size(), 1000);
     const Side side = seen.side_of(triangle, ids, reach);
-    front = side == Side::front;
+    if (side == Side::front) return convex && seen.centre_behind(of_centre, pairs);
     behind |= side == Side::behind;
   }
-  if (!front) return behind;
-  if (!convex) return false;
-  ids.clear();
-  for (const TriangleIds& pair : swapped)
-    if (ids.empty() || ids.back() != pair.a) ids.push_back(pair.a);
-  return seen.centre_behind(pairs, ids);
+  return behind;
 }
 
 }  // namespace tumble
