@@ -15,14 +15,14 @@ namespace {
 constexpr double least_cosine = 0.5;
 /// A triangle that crosses a plane is behind it if it reaches this many times as far behind it as
 /// in front.
-constexpr double mostly = 4;
+constexpr double mostly_ratio = 4;
 /// A centre is behind if it is by this many times as much as the shape reaches in front.
-constexpr double clearly = 2;
+constexpr double clear_ratio = 2;
 
 /// How far nearest features are looked for: all the triangles given.
-constexpr double everywhere = std::numeric_limits<double>::infinity();
+constexpr double any_distance = std::numeric_limits<double>::infinity();
 
-enum class Side : uint8_t { front, behind, unknown };
+enum class SurfaceSide : uint8_t { front, behind, unknown };
 
 /// The other surface in the frame of S.
 class SeenSurface {
@@ -36,9 +36,9 @@ class SeenSurface {
 
   /// Of a triangle of the other; `ids` are the triangles of S that are near it. Farther away than
   /// `reach` it has none: S may be nearer there.
-  Side side_of(uint32_t triangle, const std::vector<uint32_t>& ids, double reach) const {
+  SurfaceSide side_of(uint32_t triangle, const std::vector<uint32_t>& ids, double reach) const {
     const std::array<Vec3, 3> t = corners(triangle);
-    double least = everywhere;
+    double least = any_distance;
     Vec3 nearest = Vec3::Zero();
     bool crosses = false, front = false, behind = false;
     for (const uint32_t id : ids) {
@@ -47,17 +47,17 @@ class SeenSurface {
       const TrianglePair pair = closest_triangle_triangle(t, own);
       if (pair.squared_distance <= touching_ * touching_) {
         crosses = true;
-        const Side side = side_of_plane(t, id);
-        front |= side == Side::front, behind |= side == Side::behind;
+        const SurfaceSide side = side_of_plane(t, id);
+        front |= side == SurfaceSide::front, behind |= side == SurfaceSide::behind;
       }
       if (pair.squared_distance >= least) continue;
       least = pair.squared_distance;
       nearest = pair.on_a;
     }
-    if (least > reach * reach) return Side::unknown;
+    if (least > reach * reach) return SurfaceSide::unknown;
     if (!crosses) return side_of_point(nearest, ids);
-    if (front) return Side::front;
-    return behind ? Side::behind : Side::unknown;
+    if (front) return SurfaceSide::front;
+    return behind ? SurfaceSide::behind : SurfaceSide::unknown;
   }
 
   Vec3 centre() const { return point(other_.tree->bounds().centre()); }
@@ -70,7 +70,7 @@ class SeenSurface {
     for (const TriangleIds& pair : pairs)
       for (const Vec3& p : corners(pair.a))
         in_front = std::max(in_front, near.normal.dot(p - near.point));
-    return depth > clearly * in_front;
+    return depth > clear_ratio * in_front;
   }
 
  private:
@@ -79,22 +79,22 @@ class SeenSurface {
     return {point(other_.mesh->corner(t, 0)), point(other_.mesh->corner(t, 1)),
             point(other_.mesh->corner(t, 2))};
   }
-  Side side_of_point(const Vec3& p, const std::vector<uint32_t>& ids) const {
-    const NearestFeature near = nearest_feature(s_, p, ids, everywhere);
-    if (near.triangle == no_index || near.normal.isZero(0)) return Side::unknown;
+  SurfaceSide side_of_point(const Vec3& p, const std::vector<uint32_t>& ids) const {
+    const NearestFeature near = nearest_feature(s_, p, ids, any_distance);
+    if (near.triangle == no_index || near.normal.isZero(0)) return SurfaceSide::unknown;
     const double height = near.normal.dot(p - near.point);
-    if (height > touching_) return Side::front;
-    return height < -least_cosine * near.distance ? Side::behind : Side::unknown;
+    if (height > touching_) return SurfaceSide::front;
+    return height < -least_cosine * near.distance ? SurfaceSide::behind : SurfaceSide::unknown;
   }
-  Side side_of_plane(const std::array<Vec3, 3>& t, uint32_t id) const {
+  SurfaceSide side_of_plane(const std::array<Vec3, 3>& t, uint32_t id) const {
     double front = 0, behind = 0;
     for (const Vec3& p : t) {
       const double height = s_.topology.face_normals[id].dot(p - s_.mesh->corner(id, 0));
       front = std::max(front, height);
       behind = std::max(behind, -height);
     }
-    if (front <= touching_ && behind <= touching_) return Side::unknown;
-    return behind > mostly * front ? Side::behind : Side::front;
+    if (front <= touching_ && behind <= touching_) return SurfaceSide::unknown;
+    return behind > mostly_ratio * front ? SurfaceSide::behind : SurfaceSide::front;
   }
 
   const MeshSurface &s_, &other_;
@@ -115,7 +115,7 @@ bool lies_behind(const PlacedSurface& S, const PlacedSurface& other, bool convex
     ids.clear();
     for (const TriangleIds& pair : swapped)
       if (ids.empty() || ids.back() != pair.a) ids.push_back(pair.a);
-    of_centre = nearest_feature(S.s, seen.centre(), ids, everywhere);
+    of_centre = nearest_feature(S.s, seen.centre(), ids, any_distance);
     if (!of_centre.inside) return false;
   }
   bool behind = false;
@@ -125,9 +125,9 @@ bool lies_behind(const PlacedSurface& S, const PlacedSurface& other, bool convex
     for (; first < pairs.size() && pairs[first].a == triangle; ++first)
       ids.push_back(pairs[first].b);
     charge_work(ids.size(), 1000);
-    const Side side = seen.side_of(triangle, ids, reach);
-    if (side == Side::front) return convex && seen.centre_behind(of_centre, pairs);
-    behind |= side == Side::behind;
+    const SurfaceSide side = seen.side_of(triangle, ids, reach);
+    if (side == SurfaceSide::front) return convex && seen.centre_behind(of_centre, pairs);
+    behind |= side == SurfaceSide::behind;
   }
   return behind;
 }
