@@ -223,4 +223,17 @@ TEST_CASE("wraps that cannot be made are refused with what would do") {
   small.cell = 0.02;
   small.max_bytes = 2'000'000;
   CHECK(refusal(open_box(), small).find("cells of") != std::string::npos);
+  // So does the size that is named where there would be too many triangles.
+  WrapOptions coarse;
+  coarse.cell = 0.1;
+  const size_t count = wrap_of(open_box(), coarse).mesh.triangles.size();
+  coarse.max_triangles = count + count / 10;
+  CHECK(wrap_of(open_box(), coarse).mesh.triangles.size() == count);
+  coarse.cell = 0.05;
+  const std::string text = refusal(open_box(), coarse), before = "cells of ";
+  CHECK(text.find("triangles, at most") != std::string::npos);
+  REQUIRE(text.rfind(before) != std::string::npos);
+  coarse.cell = std::stod(text.substr(text.rfind(before) + before.size()));
+  CHECK(coarse.cell > 0.05);
+  CHECK(wrap_of(open_box(), coarse).mesh.triangles.size() <= coarse.max_triangles);
 }

@@ -76,6 +76,26 @@ TEST_CASE(
   CHECK(all_text(faults).find("meshes.s.wrap") != std::string::npos);
 }
 
+TEST_CASE("shapes that ask for the same wrap of a mesh share it, and it is told of once") {
+  const SheetScene files;
+  const auto body = [](const std::string& name, const std::string& gap) {
+    return '"' + name + R"(": {"shape": {"type": "mesh", "mesh": "s", "mode": "convex_hull", )" +
+           R"("wrap": {"offset": 0.2, "cell": 0.1, "gap": )" + gap + R"(}}, "density": 1000})";
+  };
+  const SceneRead read =
+      files.read(R"("meshes": {"s": "sheet.obj"}, "bodies": {)" + body("a", "0.01") + ", " +
+                 body("b", "0.01") + ", " + body("c", "0.02") + "}");
+  INFO(all_text(read.faults));
+  REQUIRE(read.ok());
+  std::vector<Fault> faults;
+  auto made = build_world(read.scene, {}, nullptr, &faults);
+  INFO(all_text(faults));
+  REQUIRE(made.ok());
+  CHECK(std::ranges::count_if(made->warnings, [](const std::string& w) {
+          return w.find("wrapped in") != std::string::npos;
+        }) == 2);
+}
+
 TEST_CASE("wraps are kept by content: the same from the cache, made anew when it is damaged") {
   const SheetScene files;
   const auto imported = import_mesh(files.folder.path() / "sheet.obj");
@@ -99,5 +119,12 @@ TEST_CASE("wraps are kept by content: the same from the cache, made anew when it
   CHECK(same());
   options.gap = 0.5;
   CHECK(cache.wrap(mesh, options).ok());
+  CHECK(Files(std::filesystem::directory_iterator(cache.folder()), {}).size() == 2);
+  // What cannot be made is refused for what was given, and nothing is kept of it.
+  options.gap = -1;
+  const auto refused = cache.wrap(mesh, options);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().text().find("gap of a wrap must be >= 0") != std::string::npos);
+  CHECK_FALSE(cache.wrap(std::make_shared<const TriangleMesh>(), {}).ok());
   CHECK(Files(std::filesystem::directory_iterator(cache.folder()), {}).size() == 2);
 }

@@ -3,6 +3,7 @@
 #include "engine/collision/feature_key.hpp"
 #include "engine/collision/mesh_pairs/feature_contacts.hpp"
 #include "engine/collision/mesh_pairs/near_triangles.hpp"
+#include "engine/collision/mesh_pairs/open_side.hpp"
 #include "engine/collision/mesh_pairs/overlap_regions.hpp"
 #include "engine/collision/mesh_pairs/owned_edges.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
@@ -153,20 +154,6 @@ bool gather(const MeshQuery& q) {
                         q.scratch.pairs, &q.scratch.apart, &q.scratch.crossing, &q.scratch.by_b);
 }
 
-/// Whether the middle of another surface is behind this one, which is open: by the nearest feature
-/// of all of it, where it is behind any of the near triangles, the first ids of the pairs, at all.
-bool is_behind(const PlacedSurface& S, const PlacedSurface& other,
-               const std::vector<TriangleIds>& pairs) {
-  if (S.s.closed) return false;
-  const Vec3 p = S.R.transpose() * (other.point(other.s.tree->bounds().centre()) - S.x);
-  const auto below = [&](const TriangleIds& ids) {
-    return S.s.topology.face_normals[ids.a].dot(p - S.s.mesh->corner(ids.a, 0)) < 0;
-  };
-  if (std::ranges::none_of(pairs, below)) return false;
-  const auto nearest = S.s.tree->closest(p, infinity);
-  return nearest && nearest_feature(S.s, p, {&nearest->triangle, 1}, infinity).inside;
-}
-
 /// All contacts within the range; returns the least gap found.
 double find_contacts(const MeshQuery& q) {
   Scratch& s = q.scratch;
@@ -287,8 +274,11 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     pair.found_apart(scratch.apart - (range.reach - range.margin), a.size + b.size);
     return;
   }
-  const bool a_behind = is_behind(found.B, found.A, scratch.by_b),
-             b_behind = is_behind(found.A, found.B, scratch.pairs);
+  const double near = std::max(range.margin, range.reach);
+  const bool a_behind =
+      lies_behind(found.B, found.A, !pair.a.is_mesh(), near, scratch.pairs, scratch.by_b);
+  const bool b_behind =
+      lies_behind(found.A, found.B, !pair.b.is_mesh(), near, scratch.by_b, scratch.pairs);
   const MeshQuery q{{b_behind ? pair.a.polyhedral()->reversed() : a, found.A.R, found.A.x},
                     {a_behind ? pair.b.polyhedral()->reversed() : b, found.B.R, found.B.x},
                     range,

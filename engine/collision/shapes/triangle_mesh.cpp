@@ -23,7 +23,8 @@ Status TriangleMeshShape::check(const ShapeDef& def) {
 Result<std::shared_ptr<const Shape>> TriangleMeshShape::make(const ShapeDef& def) {
   if (Status s = check(def); !s) return s.error();
   std::shared_ptr<TriangleMeshShape> shape(new TriangleMeshShape(def));
-  shape->surface();  // here, where loading is expected to take time
+  // Here, where loading is expected to take time; only open meshes are met from behind.
+  if (!shape->surface().closed) shape->reversed();
   return std::shared_ptr<const Shape>(shape);
 }
 

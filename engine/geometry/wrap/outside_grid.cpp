@@ -125,4 +125,17 @@ void OutsideGrid::fill_unreached() {
           value = -field_.spacing;
 }
 
+size_t OutsideGrid::cut_edges() const {
+  size_t out = 0;
+  // The last nodes of the room are outside, and so are all that would follow.
+  for (int z = 0; z + 1 < nodes_[2] && !stop_requested(); ++z)
+    for (int y = 0; y + 1 < nodes_[1]; ++y)
+      for (int x = 0; x + 1 < nodes_[0]; ++x) {
+        const bool here = inside({x, y, z});
+        for (int c = 1; c < 8; ++c)
+          out += inside({x + (c & 1), y + (c >> 1 & 1), z + (c >> 2 & 1)}) != here;
+      }
+  return out;
+}
+
 }  // namespace tumble

@@ -23,16 +23,25 @@ class OutsideGrid {
   /// inside is made inside.
   void fill_unreached();
   const SparseField& field() const { return field_; }
+  /// Edges of the tetrahedra with one end inside: vertices of the surface.
+  size_t cut_edges() const;
 
  private:
   OutsideGrid() = default;
   void measure_row(const Hierarchy& surface, FunctionRef<double(double, bool)> f, int y, int z);
   double& at(const std::array<int, 3>& node) {
+    return field_.bricks[brick_of(node)].value[place_of(node)];
+  }
+  bool inside(const std::array<int, 3>& node) const {
+    return field_.bricks[brick_of(node)].value[place_of(node)] < 0;
+  }
+  size_t brick_of(const std::array<int, 3>& node) const {
     constexpr int edge = SparseField::edge;
-    const auto brick =
-        size_t((node[0] / edge * bricks_[1] + node[1] / edge) * bricks_[2] + node[2] / edge);
-    return field_.bricks[brick]
-        .value[size_t((node[2] % edge * edge + node[1] % edge) * edge + node[0] % edge)];
+    return size_t((node[0] / edge * bricks_[1] + node[1] / edge) * bricks_[2] + node[2] / edge);
+  }
+  static size_t place_of(const std::array<int, 3>& node) {
+    constexpr int edge = SparseField::edge;
+    return size_t((node[2] % edge * edge + node[1] % edge) * edge + node[0] % edge);
   }
   size_t number(const std::array<int, 3>& node) const {
     return (size_t(node[2]) * size_t(nodes_[1]) + size_t(node[1])) * size_t(nodes_[0]) +

@@ -49,14 +49,34 @@ void each_measured_point(const TriangleMesh& mesh, const F& f) {
   for (size_t n = 1; n <= measured_points && !stop_requested(); ++n) f(samples(n).point);
 }
 
+/// The surface of a grid.
+Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
+  // A closed surface has about two triangles for each vertex (Euler).
+  const double triangles = 2 * double(grid.cut_edges());
+  if (stop_requested()) return stopped_error();
+  if (triangles > double(o.max_triangles))
+    return bad_wrap(
+        fmt::format("a wrap with cells of {:.3g} m would have {:.3g} triangles, at most {} are "
+                    "allowed",
+                    o.cell, triangles, o.max_triangles),
+        fmt::format("cells of {:.2g} m would do",
+                    1.1 * o.cell * std::sqrt(triangles / double(o.max_triangles))));
+  TriangleMesh out = isosurface(grid.field());
+  if (stop_requested()) return stopped_error();
+  MeshLimits limits;
+  limits.max_triangles = o.max_triangles;
+  if (Status s = validate(out, limits); !s) return s.error();
+  return out;
+}
+
 }  // namespace
 
 WrapOptions complete(WrapOptions o, const Aabb& bounds) {
   const double size = bounds.extent().maxCoeff();
-  if (!(o.gap > 0)) o.gap = size / 12;
-  if (!(o.cell > 0))
+  if (o.gap == 0) o.gap = size / 12;
+  if (o.cell == 0)
     o.cell = o.offset > 0 ? o.offset / 2 : std::clamp(o.gap / 4, size / 128, size / 40);
-  if (!(o.offset > 0)) o.offset = 2 * o.cell;
+  if (o.offset == 0) o.offset = 2 * o.cell;
   return o;
 }
 
@@ -78,18 +98,19 @@ Result<WrappedMesh> wrap_mesh(const Hierarchy& surface, const WrapOptions& optio
       surface, [&](double d, bool) { return d - radius; }, o.crew);
   grid->fill_unreached();
   tell_progress(0.3);
-  WrappedMesh out;
-  out.mesh = isosurface(grid->field());
-  if (back > 0 && !stop_requested()) {
-    const AabbTree reached(std::make_shared<const TriangleMesh>(std::move(out.mesh)));
+  auto made = surface_of(*grid, o);
+  if (made && back > 0) {
+    const AabbTree reached(std::make_shared<const TriangleMesh>(*std::move(made)));
     tell_progress(0.4);
     grid->measure(
         reached, [&](double d, bool inside) { return back - (inside ? d : -d); }, o.crew);
     grid->fill_unreached();
     tell_progress(0.7);
-    out.mesh = isosurface(grid->field());
+    made = surface_of(*grid, o);
   }
-  if (stop_requested()) return stopped_error();
+  if (!made) return made.error();
+  WrappedMesh out;
+  out.mesh = *std::move(made);
   out.report = measure_wrap(AabbTree(std::make_shared<const TriangleMesh>(out.mesh)), surface);
   tell_progress(1);
   out.report.gap = 2 * radius;

@@ -24,10 +24,13 @@ struct WrapOptions {
   /// from a 128th to a 40th of the mesh's longest side.
   double cell = 0;
   size_t max_bytes = size_t{1} << 30;  ///< of the grid; more is an error
-  Crew* crew = nullptr;                ///< the wrap is the same, bit by bit, with any or none
+  /// Of the wrap, and of the surface about the mesh that it is measured from; more is an error.
+  size_t max_triangles = MeshLimits{}.max_triangles;
+  Crew* crew = nullptr;  ///< the wrap is the same, bit by bit, with any or none
 };
 
-/// What is taken where nothing is given, of a mesh with these bounds.
+/// What is taken where nothing is given, of a mesh with these bounds; options that are out of range
+/// stay so.
 WrapOptions complete(WrapOptions options, const Aabb& bounds);
 
 /// How a wrap lies about its mesh. Distances are sampled at corners and evenly over the surfaces.
@@ -60,8 +63,9 @@ struct WrappedMesh {
 /// circumradius of sqrt(3)/2 cells, each is off by no more than that, and with an offset of more
 /// than sqrt(3) cells all of the mesh lies inside, for certain.
 ///
-/// Errors: the mesh is invalid or a point; options out of range; the grid would be too large (the
-/// cure names a cell that fits); cancelled (engine/core/stop.hpp).
+/// Errors: the mesh is invalid or a point; options out of range; the grid would be too large, or
+/// the wrap have too many triangles (the cure names a cell that fits); cancelled
+/// (engine/core/stop.hpp).
 Result<WrappedMesh> wrap_mesh(const Hierarchy& surface, const WrapOptions& options = {});
 
 /// Measures how a closed mesh lies about another.

@@ -54,7 +54,7 @@ struct Maker {
     const auto mode = how(s).mode;
     ShapeDef out =
         of_type(mode == MeshMode::convex_hull ? ShapeType::convex_hull : ShapeType::triangle_mesh);
-    out.mesh = wrapped(meshes.find(s.mesh), s.wrap, path, sink, warnings);
+    out.mesh = meshes.wrapped(s.mesh, s.wrap, path, sink, warnings);
     return out;
   }
   /// As the shape says, or else its mesh.

@@ -7,6 +7,24 @@
 #include "engine/scene/resources.hpp"
 
 namespace tumble {
+namespace {
+
+/// As SceneMeshes::wrapped().
+std::shared_ptr<const TriangleMesh> wrap_of_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
+                                                 const std::optional<WrapDescription>& wrap,
+                                                 const std::string& path, const FaultSink& sink,
+                                                 std::vector<std::string>& warnings) {
+  if (!mesh || !wrap) return mesh;
+  auto made = WrapCache().wrap(mesh, wrap_options(*wrap));
+  if (!made) {
+    sink(path + ".wrap", made.error().text());
+    return nullptr;
+  }
+  warnings.push_back(path + ": " + wrap_note(*made));
+  return std::make_shared<const TriangleMesh>(std::move(made->mesh));
+}
+
+}  // namespace
 
 MeshRepresentation representation_of(const MeshModeDescription& d, const Aabb& bounds) {
   MeshRepresentation out;
@@ -19,20 +37,6 @@ MeshRepresentation representation_of(const MeshModeDescription& d, const Aabb& b
   options.error = d.error.value_or(0);
   out.cell = field_cell(options, bounds);
   return out;
-}
-
-std::shared_ptr<const TriangleMesh> wrapped(const std::shared_ptr<const TriangleMesh>& mesh,
-                                            const std::optional<WrapDescription>& wrap,
-                                            const std::string& path, const FaultSink& sink,
-                                            std::vector<std::string>& warnings) {
-  if (!mesh || !wrap) return mesh;
-  auto made = WrapCache().wrap(mesh, wrap_options(*wrap));
-  if (!made) {
-    sink(path + ".wrap", made.error().text());
-    return nullptr;
-  }
-  warnings.push_back(path + ": " + wrap_note(*made));
-  return std::make_shared<const TriangleMesh>(std::move(made->mesh));
 }
 
 SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
@@ -53,8 +57,8 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
     }
     for (const std::string& note : imported->notes)
       warnings.push_back("meshes." + name + ": " + note);
-    const auto mesh = wrapped(std::make_shared<const TriangleMesh>(std::move(imported->mesh)),
-                              m.wrap, "meshes." + name, sink, warnings);
+    const auto mesh = wrap_of_mesh(std::make_shared<const TriangleMesh>(std::move(imported->mesh)),
+                                   m.wrap, "meshes." + name, sink, warnings);
     if (!mesh) continue;
     auto parts = mesh_parts(mesh, representation_of(m.how, bounds(*mesh)));
     if (!parts) {
@@ -70,6 +74,21 @@ SceneMeshes::SceneMeshes(const SceneDescription& scene, const FaultSink& sink,
 std::shared_ptr<const TriangleMesh> SceneMeshes::find(const std::string& name) const {
   const auto it = meshes_.find(name);
   return it == meshes_.end() ? nullptr : it->second;
+}
+
+std::shared_ptr<const TriangleMesh> SceneMeshes::wrapped(const std::string& name,
+                                                         const std::optional<WrapDescription>& wrap,
+                                                         const std::string& path,
+                                                         const FaultSink& sink,
+                                                         std::vector<std::string>& warnings) const {
+  const auto mesh = find(name);
+  if (!mesh || !wrap) return mesh;
+  const WrapOptions o = wrap_options(*wrap);
+  const WrapKey key{name, o.gap, o.offset, o.cell};
+  if (const auto known = wraps_.find(key); known != wraps_.end()) return known->second;
+  auto made = wrap_of_mesh(mesh, wrap, path, sink, warnings);
+  if (made) wraps_[key] = made;
+  return made;
 }
 
 const MeshParts* SceneMeshes::parts(const std::string& name) const {

@@ -42,6 +42,7 @@ std::optional<WrappedMesh> wrap_of_bytes(std::span<const std::byte> bytes) {
 
 Result<WrappedMesh> WrapCache::wrap(const std::shared_ptr<const TriangleMesh>& mesh,
                                     const WrapOptions& options) const {
+  if (Status s = validate(*mesh); !s) return s.error();
   const WrapOptions o = complete(options, bounds(*mesh));
   ByteWriter key;
   key.value(wrap_format);
@@ -50,8 +51,8 @@ Result<WrappedMesh> WrapCache::wrap(const std::shared_ptr<const TriangleMesh>& m
   add_to_key(key, *mesh);
   if (const auto kept = cache_.read(key.bytes()))
     if (auto known = wrap_of_bytes(*kept)) return *std::move(known);
-  auto made = wrap_mesh(AabbTree(mesh), options);
-  if (made) cache_.write(key.bytes(), bytes_of_wrap(*made));
+  auto made = wrap_mesh(AabbTree(mesh), o);
+  if (made && validate(made->mesh)) cache_.write(key.bytes(), bytes_of_wrap(*made));
   return made;
 }
 
