@@ -200,7 +200,10 @@ class BetweenStages final : public TickListener {
         {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
         s_.ledger, *s_.crew);
   }
-  void put_back() override { book_corrections(s_, LedgerLine::projection); }
+  void put_back(const ContinuousStage& stage) override {
+    const ScopedStage timed(s_.profiler, "books");
+    s_.workspace.books.put_back(s_.bodies.bodies, stage, s_.settings.gravity, s_.ledger, *s_.crew);
+  }
   void slept() override { book_corrections(s_, LedgerLine::sleeping); }
   void moved() override {
     {

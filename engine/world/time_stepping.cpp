@@ -39,8 +39,8 @@ class TimeSteppingBooks final : public TickListener {
     books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
                     s_.ledger, *s_.crew);
   }
-  void put_back() override {
-    books_.corrected(s_.bodies.bodies, LedgerLine::projection, s_.ledger, *s_.crew);
+  void put_back(const ContinuousStage& stage) override {
+    books_.put_back(s_.bodies.bodies, stage, s_.settings.gravity, s_.ledger, *s_.crew);
   }
 
  private:

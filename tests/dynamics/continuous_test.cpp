@@ -130,6 +130,44 @@ TEST_CASE("a turning vane takes along what lies in its way") {
   }
 }
 
+TEST_CASE("what slept on a body that a kinematic one takes away falls") {
+  RigidWorld w;
+  w.fixed(box(1, 0.5, 1), {0, -0.5, 0});
+  w.add(body(box(0.1, 0.1, 0.1), {0, 0.1, 0}));
+  const uint32_t upper = w.add(body(box(0.1, 0.1, 0.1), {0, 0.3, 0}));
+  w.run(1.5);
+  REQUIRE(w.awake() == 0);
+  BodyDef bar = body(box(0.02, 0.04, 0.5), {-0.8, 0.1, 0});
+  bar.type = BodyType::kinematic;
+  bar.velocity = {60, 0, 0};
+  w.add(bar);
+  w.run(0.5);
+  CHECK(w.bodies[upper].pose.x.y() < 0.15);
+}
+
+TEST_CASE("a small ball without friction stays at the bottom of a drum that turns fast") {
+  RigidWorld w;
+  BodyDef drum = body(box(0.3, 0.01, 0.2), {0, 0, 0}, 0);
+  const BodyShapeDef plate = drum.shapes[0];
+  drum.shapes.clear();
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2 * M_PI * i / 24;
+    BodyShapeDef& wall = drum.shapes.emplace_back(plate);
+    wall.pose = {{0.5 * std::sin(angle), -0.5 * std::cos(angle), 0},
+                 Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ()))};
+  }
+  drum.type = BodyType::kinematic;
+  drum.angular_velocity = {0, 0, 2 * M_PI};
+  w.add(drum);
+  const uint32_t ball = w.add(body(sphere(0.003), {0, -0.48, 0}, 0));
+  double farthest = 0;
+  for (int i = 0; i < 60; ++i) {
+    w.run(w.h);
+    farthest = std::max(farthest, std::fabs(w.bodies[ball].pose.x.x()));
+  }
+  CHECK(farthest < 0.1);  // the wall goes 3 m
+}
+
 TEST_CASE("bullets at 1000 m/s stop at a plate of 0.5 mm and at a mesh of 0.1 mm" *
           doctest::test_suite("long")) {
   const int count = scaled(60, 10);

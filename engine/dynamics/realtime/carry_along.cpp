@@ -3,6 +3,7 @@
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/continuous.hpp"
 #include "engine/dynamics/realtime/swept_body.hpp"
+#include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -45,6 +46,12 @@ void ContinuousStage::sort_places() {
   for (const Place& p : places_) widest_ = std::max(widest_, p.bounds.max.x() - p.bounds.min.x());
 }
 
+std::span<const ContinuousStage::Place> ContinuousStage::places_from(double x) const {
+  const auto first = std::ranges::lower_bound(places_, x - widest_, {},
+                                              [](const Place& p) { return p.bounds.min.x(); });
+  return {first, places_.end()};
+}
+
 void ContinuousStage::find_in_the_way(std::span<const RigidBody> bodies, uint32_t carrier,
                                       bool sorted) {
   const RigidBody& moving = bodies[carrier];
@@ -52,15 +59,11 @@ void ContinuousStage::find_in_the_way(std::span<const RigidBody> bodies, uint32_
   Aabb all;
   for (uint32_t s = 0; s < moving.shapes.size(); ++s)
     all.include(ways_.emplace_back(swept_bounds(moving, carrier, s)));
-  auto place = places_.begin();
-  if (sorted)
-    place = std::ranges::lower_bound(places_, all.min.x() - widest_, {},
-                                     [](const Place& p) { return p.bounds.min.x(); });
-  for (; place != places_.end(); ++place) {
-    if (sorted && place->bounds.min.x() > all.max.x()) return;
-    if (!all.overlaps(place->bounds) || tracks_[place->slot].carrier != none) continue;
-    if (apart_ && apart_->excludes(carrier, place->slot)) continue;
-    list_shapes_in_the_way(bodies, carrier, place->slot);
+  for (const Place& place : sorted ? places_from(all.min.x()) : std::span<const Place>(places_)) {
+    if (sorted && place.bounds.min.x() > all.max.x()) return;
+    if (!all.overlaps(place.bounds) || tracks_[place.slot].carrier != none) continue;
+    if (apart_ && apart_->excludes(carrier, place.slot)) continue;
+    list_shapes_in_the_way(bodies, carrier, place.slot);
   }
 }
 
@@ -83,6 +86,13 @@ void ContinuousStage::list_shapes_in_the_way(std::span<const RigidBody> bodies, 
 void ContinuousStage::time_in_the_way(std::span<const RigidBody> bodies, double h, Crew& crew,
                                       ContinuousStats& stats) {
   stats.tested += in_the_way_.size();
+  for (Candidate& c : in_the_way_) {
+    const RigidBody& b = bodies[c.b.body];
+    const Motion &ma = tracks_[c.a.body].motion, &mb = tracks_[c.b.body].motion;
+    const double size = b.shapes[c.b.shape].shape->bounding_radius();
+    c.reach = 2 * size +
+              h * (ma.velocity.norm() + mb.velocity.norm() + mb.omega.norm() * b.bounding_radius);
+  }
   crew.each(in_the_way_.size(), [&](size_t i) { time_candidate(bodies, h, in_the_way_[i]); });
   std::erase_if(in_the_way_, [h](const Candidate& c) { return !(c.stop.time <= h); });
   std::ranges::sort(in_the_way_, {}, [](const Candidate& c) {
@@ -124,12 +134,14 @@ void ContinuousStage::hold_carried(std::span<RigidBody> bodies, double h, Crew& 
     for (uint32_t s = 0; s < bodies[i].shapes.size(); ++s)
       place.bounds.include(swept_bounds(bodies[i], i, s));
   }
+  sort_places();
   in_the_way_.clear();
-  for (uint32_t i = 0; i < bodies.size(); ++i) {
+  for (uint32_t i = 0; i < bodies.size() && !stop_requested(); ++i) {
     if (bodies[i].dynamic()) continue;
     for (uint32_t k = 0; k < bodies[i].shapes.size(); ++k) {
       const Aabb way = swept_bounds(bodies[i], i, k);
-      for (const Place& place : places_) {
+      for (const Place& place : places_from(way.min.x())) {
+        if (place.bounds.min.x() > way.max.x()) break;
         if (!way.overlaps(place.bounds) || tracks_[place.slot].carrier == i) continue;
         if (apart_ && apart_->excludes(i, place.slot)) continue;
         for (uint32_t s = 0; s < bodies[place.slot].shapes.size(); ++s) {
@@ -153,23 +165,33 @@ void ContinuousStage::hold_carried(std::span<RigidBody> bodies, double h, Crew& 
 /// each body is carried once.
 void ContinuousStage::carry_along(std::span<RigidBody> bodies, double h, Crew& crew,
                                   ContinuousStats& stats) {
-  carried_.clear();
   list_places(bodies);
-  for (bool sorted = false; !sweeping_.empty() && !stop_requested(); sorted = true) {
+  bool sorted = false;
+  while (!sweeping_.empty() && !stop_requested()) {
+    if (!sorted && sweeping_.size() > tolerances::few_carriers) {
+      sort_places();
+      sorted = true;
+    }
     in_the_way_.clear();
-    for (const uint32_t i : sweeping_) find_in_the_way(bodies, i, sorted);
+    for (const uint32_t i : sweeping_) {
+      if (stop_requested()) return;
+      find_in_the_way(bodies, i, sorted);
+    }
     sweeping_.clear();
     time_in_the_way(bodies, h, crew, stats);
     for (const Candidate& met : in_the_way_) {
+      // What slides along the carrier and gets no deeper is left to the solver.
+      if (met.stop.undecided) continue;
       carry(bodies, met, h);
       sweeping_.push_back(met.b.body);
     }
     carried_.insert(carried_.end(), sweeping_.begin(), sweeping_.end());
-    if (!sorted && !sweeping_.empty()) sort_places();
   }
   stats.carried += carried_.size();
   std::ranges::sort(carried_);
   std::ranges::sort(woken_);
+  stale_tracks_.note(bodies.size(), woken_);
+  stale_proxies_.note(bodies.size(), woken_);
   if (!carried_.empty()) hold_carried(bodies, h, crew, stats);
 }
 

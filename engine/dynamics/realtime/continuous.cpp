@@ -57,12 +57,16 @@ void ContinuousStage::remember(std::span<const RigidBody> bodies,
   gravity_ = gravity;
   involved_.assign(involved.begin(), involved.end());
   const bool any = everything || starts_.size() != bodies.size();
-  note_stale(bodies.size(), any);
   if (any) {
+    stale_tracks_.note_all();
+    stale_proxies_.note_all();
     least_unwatched_ = never;
     for (const RigidBody& body : bodies)
-      if (body.dynamic()) least_unwatched_ = std::min(least_unwatched_, unwatched(body));
+      if (body.dynamic() && !body.shapes.empty())
+        least_unwatched_ = std::min(least_unwatched_, unwatched(body));
   }
+  stale_tracks_.note(bodies.size(), involved_);
+  stale_proxies_.note(bodies.size(), involved_);
   starts_.resize(bodies.size());
   for_chunks(crew, involved.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t i : involved.subspan(first, last - first))
@@ -87,28 +91,16 @@ bool ContinuousStage::all_slow(std::span<const RigidBody> bodies, double h, Crew
   return std::ranges::none_of(fast, [](bool any) { return any; });
 }
 
-/// Marks what was computed for the involved bodies, when something was last fast, as out of date.
-void ContinuousStage::note_stale(size_t bodies, bool everything) {
-  all_stale_ |= everything;
-  if (all_stale_) return;
-  is_stale_.resize(bodies, 0);
-  for (const uint32_t i : involved_)
-    if (!std::exchange(is_stale_[i], uint8_t{1})) stale_.push_back(i);
-}
-
 void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
                                 ContinuousStats& stats) {
-  if (h != h_ || tracks_.size() != bodies.size()) all_stale_ = true;
+  if (h != h_ || tracks_.size() != bodies.size()) {
+    stale_tracks_.note_all();
+    stale_proxies_.note_all();
+  }
   h_ = h;
   tracks_.resize(bodies.size());
   sweeping_.clear();
-  if (all_stale_) {
-    stale_.resize(bodies.size());
-    std::iota(stale_.begin(), stale_.end(), 0u);
-  } else {
-    std::ranges::sort(stale_);
-  }
-  for (const uint32_t i : stale_) {
+  for (const uint32_t i : stale_tracks_.slots(bodies.size())) {
     Track& track = tracks_[i];
     const RigidBody& body = bodies[i];
     track.stop = h;
@@ -128,6 +120,9 @@ void ContinuousStage::find_fast(std::span<const RigidBody> bodies, double h,
     track.fast = (body.pose.x - start.x).norm() + turn > unwatched(body);
     stats.fast += track.fast;
   }
+  // They are of this tick only.
+  stale_tracks_.clear();
+  stale_tracks_.note(bodies.size(), involved_);
 }
 
 bool ContinuousStage::far_apart(std::span<const RigidBody> bodies, ShapeRef a, ShapeRef b) const {
@@ -174,19 +169,17 @@ void ContinuousStage::put_proxies(const RigidBody& body, uint32_t slot) {
 }
 
 void ContinuousStage::find_candidates(std::span<const RigidBody> bodies, BroadPhase& broad_phase) {
-  if (all_stale_) number_shape_proxies(bodies, proxies_);
+  if (stale_proxies_.all()) number_shape_proxies(bodies, proxies_);
   ++proxies_.news.number;
-  proxies_.news.all = all_stale_;
+  proxies_.news.all = stale_proxies_.all();
   proxies_.news.moving.clear();
   proxies_.news.settled.clear();
-  for (const uint32_t i : stale_) put_proxies(bodies[i], i);
-  const bool most = 2 * stale_.size() > bodies.size();
-  // The involved bodies will be elsewhere when something is fast the next time.
-  for (const uint32_t i : stale_)
-    if (i < is_stale_.size()) is_stale_[i] = 0;
-  stale_.clear();
-  all_stale_ = false;
-  note_stale(bodies.size(), false);
+  const std::span<const uint32_t> stale = stale_proxies_.slots(bodies.size());
+  for (const uint32_t i : stale) put_proxies(bodies[i], i);
+  const bool most = 2 * stale.size() > bodies.size();
+  // Bounds that cover the motion of this tick are of this tick only.
+  stale_proxies_.clear();
+  stale_proxies_.note(bodies.size(), involved_);
   broad_phase.set_owners(proxies_.owners);
   if (most)
     broad_phase.find_pairs(proxies_.proxies, pairs_);
@@ -250,6 +243,7 @@ SweptPair ContinuousStage::swept_pair(std::span<const RigidBody> bodies, Candida
           .lever_b = b.bounding_radius,
           .swing_a = swing(a, ta.motion),
           .swing_b = swing(b, tb.motion),
+          .reach = c.reach,
           .allowed = allowed,
           .growth = c.thin ? 0 : std::max(allowed, tolerances::growing_overlap * inner),
           .watch_touching = watch_touching,
@@ -364,13 +358,11 @@ ContinuousStats ContinuousStage::apply(std::span<RigidBody> bodies, BroadPhase& 
   ContinuousStats stats;
   methods_ = methods;
   woken_.clear();
+  carried_.clear();
   if (!settings.continuous || starts_.size() != bodies.size()) return stats;
   if (all_slow(bodies, h, crew)) return stats;
   find_fast(bodies, h, stats);
-  if (stats.fast > 0)
-    hold_fast(bodies, broad_phase, h, crew, stats);
-  else if (all_stale_)
-    stale_.clear();
+  if (stats.fast > 0) hold_fast(bodies, broad_phase, h, crew, stats);
   if (!sweeping_.empty()) carry_along(bodies, h, crew, stats);
   return stats;
 }

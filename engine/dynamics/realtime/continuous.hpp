@@ -9,9 +9,11 @@
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
+#include "engine/dynamics/realtime/stale_bodies.hpp"
 #include "engine/dynamics/realtime/swept_pair.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -57,10 +59,15 @@ class ContinuousStage {
   /// Bodies that a kinematic one met while they slept, and that woke in the last apply(),
   /// ascending.
   std::span<const uint32_t> woken() const { return woken_; }
+  /// Bodies that kinematic ones carried along in the last apply(), ascending, the woken among them;
+  /// where each was at the start of the tick.
+  std::span<const uint32_t> carried() const { return carried_; }
+  const Pose& start_of(uint32_t body) const { return starts_[body].pose; }
   void add_memory(MemoryUse& use) const {
     use.bodies +=
         heap_bytes(involved_, starts_, tracks_, proxies_.proxies, proxies_.refs, proxies_.first,
-                   proxies_.owners, proxies_.news.moving, proxies_.news.settled, stale_, is_stale_);
+                   proxies_.owners, proxies_.news.moving, proxies_.news.settled) +
+        stale_tracks_.bytes() + stale_proxies_.bytes();
     use.contacts += heap_bytes(pairs_, candidates_, in_the_way_, places_, first_of_, by_body_);
   }
 
@@ -83,6 +90,7 @@ class ContinuousStage {
     bool thin = false;  ///< a shape is thin: a pair that would overlap deeper loses its approach
     bool firm = false;  ///< thin, and not both can give way: the slower body is stopped too
     bool held = false;  ///< it has stopped a body
+    double reach = std::numeric_limits<double>::infinity();  ///< SweptPair::reach [m]
   };
   /// Bounds of a dynamic body over the tick.
   struct Place {
@@ -93,7 +101,6 @@ class ContinuousStage {
   /// A cheap sufficient test that no body moved farther than its foresight, and no kinematic body
   /// farther than that of any other.
   bool all_slow(std::span<const RigidBody> bodies, double h, Crew& crew) const;
-  void note_stale(size_t bodies, bool everything);
   void find_fast(std::span<const RigidBody> bodies, double h, ContinuousStats& stats);
   /// Bounds of a shape over the tick.
   Aabb swept_bounds(const RigidBody& body, uint32_t slot, uint32_t shape) const;
@@ -104,6 +111,8 @@ class ContinuousStage {
   /// carriers.
   void list_places(std::span<const RigidBody> bodies);
   void sort_places();
+  /// Of sorted places, those that may reach beyond x [m].
+  std::span<const Place> places_from(double x) const;
   /// Lists pairs of shapes of `carrier` and of bodies that it may have swept over.
   void find_in_the_way(std::span<const RigidBody> bodies, uint32_t carrier, bool sorted);
   void list_shapes_in_the_way(std::span<const RigidBody> bodies, uint32_t carrier, uint32_t slot);
@@ -136,13 +145,11 @@ class ContinuousStage {
   std::vector<uint32_t> involved_;
   std::vector<Start> starts_;   ///< by slot; of the involved bodies
   double least_unwatched_ = 0;  ///< least unwatched() distance of all dynamic bodies [m]
-  // Only up to date in ticks in which something is fast, which are few.
+  // Only brought up to date in ticks in which they are needed, which are few.
   std::vector<Track> tracks_;
   ProxySet proxies_;
-  double h_ = 0;                   ///< length of the tick of the tracks [s]
-  bool all_stale_ = true;          ///< tracks and proxies of all bodies are out of date
-  std::vector<uint32_t> stale_;    ///< or those of these bodies
-  std::vector<uint8_t> is_stale_;  ///< by slot
+  StaleBodies stale_tracks_, stale_proxies_;
+  double h_ = 0;  ///< length of the tick of the tracks [s]
   std::vector<ProxyPair> pairs_;
   std::vector<Candidate> candidates_;
   /// Kinematic bodies that moved farther than the foresight of others; later, the bodies that they

@@ -4,6 +4,7 @@
 #include "engine/dynamics/realtime/tolerances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -63,7 +64,7 @@ class Sweep {
       if (approach(hit) * (h_ - t_) > p_.allowed) return {t_};
       // A shallow contact does not stop the pair, which is then tested like a touching one.
       now_.touch = true;
-      now_.closing = std::max(now_.closing, closing_along(hit.normal));
+      now_.closing = std::max(now_.closing, closing_along(hit.normal, hit.on_a));
     }
     return {};
   }
@@ -88,11 +89,14 @@ class Sweep {
   }
 
   /// Bound on the rate at which the overlap along `n` grows before the next computed contact [m/s].
-  double closing_along(const Vec3& n) const {
+  double closing_along(const Vec3& n, const Vec3& at) const {
     if (!p_.time_touching) return fastest();
-    const auto along = [](const Motion& m, const Vec3& dir, double swing, double lever) {
+    const auto along = [&](const Motion& m, const Vec3& dir, double swing, double lever) {
       const double turn = std::min(dir.cross(m.omega).norm(), swing);
-      return dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
+      const double all = dir.dot(m.velocity) + (turn > 0 ? turn * lever : 0);
+      if (!std::isfinite(p_.reach)) return all;
+      const Vec3 here = m.velocity + m.omega.cross(at - m.carrier(t_).x);
+      return std::min(all, dir.dot(here) + turn * p_.reach);
     };
     return (moves_a() ? along(p_.motion_a, n, p_.swing_a, p_.lever_a) : 0) +
            (moves_b() ? along(p_.motion_b, -n, p_.swing_b, p_.lever_b) : 0);
@@ -121,9 +125,9 @@ class Sweep {
                     manifolds_);
     for (const Manifold& m : manifolds_) {
       now_.touch = true;
-      now_.closing = std::max(now_.closing, closing_along(m.normal));
       for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[size_t(i)];
+        now_.closing = std::max(now_.closing, closing_along(m.normal, p.x_world));
         if (p.gap >= nearest) continue;
         nearest = p.gap;
         now_.depth = std::max(-p.gap, 0.0);
@@ -137,7 +141,10 @@ class Sweep {
   bool walk(double until) {
     while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
-      if (++looks_ > tolerances::most_looks) return false;
+      if (++looks_ > tolerances::most_looks) {
+        stop_.undecided = true;
+        return false;
+      }
       const double far =
           now_.closing > 0 ? tolerances::look_step * p_.allowed / now_.closing : no_contact_time;
       see(std::min(until, t_ + far));

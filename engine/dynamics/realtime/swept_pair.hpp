@@ -18,6 +18,10 @@ struct SweptPair {
   /// Upper bounds on the angular velocity of the shapes as sets of points [rad/s]: rotation of a
   /// body of revolution about its axis does not change the set.
   double swing_a = 0, swing_b = 0;
+  /// Points of a body that are farther than this from where the two touch do not get there within
+  /// the tick [m]. Where it is given, bounds on how fast an overlap grows come from the velocities
+  /// near the contact, in place of those of the whole bodies.
+  double reach = std::numeric_limits<double>::infinity();
   double allowed = 0;  ///< overlap up to which a contact on the path does not stop the pair [m]
   double growth = 0;   ///< amount by which the overlap at time 0 may grow, if that allows more [m]
   /// Whether touching shapes are tested too; otherwise they are left to the solver.
@@ -38,6 +42,7 @@ struct SweptStop {
   bool deepens = false;
   Vec3 at = Vec3::Zero();       ///< in world coordinates [m]
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B
+  bool undecided = false;  ///< the two still touched at the last look, no deeper than is allowed
 };
 
 /// The time in [0, h] at which a pair must be stopped so that its overlap never exceeds

@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/bodies/proxies.hpp"
+#include "engine/dynamics/islands/waking.hpp"
 #include "engine/dynamics/realtime/tick_groups.hpp"
 #include "engine/dynamics/realtime/tick_parts.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
@@ -78,9 +79,27 @@ void RealtimeTick::sweep(double part, const RealtimeSettings& tuning) {
     report.continuous =
         continuous.apply(bodies, path_broad_phase, part, tuning, crew, continuous_methods);
   }
-  roster.add(continuous.woken());
   // Otherwise nothing was moved.
-  if (report.continuous.fast + report.continuous.carried > 0) listener.put_back();
+  if (report.continuous.fast + report.continuous.carried > 0) listener.put_back(continuous);
+  if (!continuous.woken().empty()) wake_beside_carried();
+}
+
+/// Sleepers that touch one that was carried away may have lost what they rested on.
+void RealtimeTick::wake_beside_carried() {
+  std::vector<uint32_t> woken(continuous.woken().begin(), continuous.woken().end());
+  const auto carried = [this](uint32_t i) {
+    return std::ranges::binary_search(continuous.woken(), i);
+  };
+  contacts.for_each([&](const Contact& c) {
+    const uint32_t a = c.key.body_a, b = c.key.body_b;
+    if (carried(a) == carried(b)) return;
+    const uint32_t other = carried(a) ? b : a;
+    if (!bodies[other].dynamic() || !bodies[other].asleep) return;
+    wake(bodies[other]);
+    woken.push_back(other);
+  });
+  std::ranges::sort(woken);
+  roster.add(woken);
 }
 
 void RealtimeTick::sleep() {

@@ -34,9 +34,10 @@ class TickListener {
   virtual void islands_known() {}  ///< before the solver moves anything
   /// After the solver moved bodies for so many seconds, before any is moved back.
   virtual void solved(double /*part*/) {}
-  virtual void put_back() {}  ///< the continuous stage moved bodies back or along
-  virtual void slept() {}     ///< islands were put to sleep
-  virtual void moved() {}     ///< the tick is over
+  /// The continuous stage moved bodies back, or along with kinematic ones.
+  virtual void put_back(const ContinuousStage& /*stage*/) {}
+  virtual void slept() {}  ///< islands were put to sleep
+  virtual void moved() {}  ///< the tick is over
 };
 
 /// Results of the stages; of several parts the sum where that makes sense, otherwise the last.
@@ -105,6 +106,7 @@ struct RealtimeTick {
   void sleep();
 
  private:
+  void wake_beside_carried();
   Status advance(double part, const RealtimeSettings& tuning);
   Status in_parts(int parts);
   Status group_tick(TickParts& parts, int number);

@@ -174,6 +174,9 @@ inline constexpr double free_flight = 1e-9;
 /// Most tests of a touching pair in a tick [-]: a pair that needs more is stopped where it was last
 /// tested.
 inline constexpr int most_looks = 64;
+/// Carriers for each of which all bodies are looked at [-]; for more the bodies are sorted first,
+/// which costs as much as looking at them about ten times.
+inline constexpr size_t few_carriers = 8;
 /// Growth of overlap that is allowed to bodies that touched at the start, as a share of the inner
 /// radius [-]: the solver handles these contacts, but a body that passes the middle would come out
 /// on the other side.

@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/realtime/continuous.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -281,6 +282,21 @@ void RealtimeBooks::end_part(const Part& part, Ledger& ledger, Crew& crew) {
 
 void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger,
                               Crew& crew) {
+  corrected(bodies, involved_, line, ledger, crew);
+}
+
+void RealtimeBooks::put_back(std::span<const RigidBody> bodies, const ContinuousStage& stage,
+                             const Vec3& gravity, Ledger& ledger, Crew& crew) {
+  for (const uint32_t i : stage.woken()) {
+    last_[i] = {stage.start_of(i), Vec3::Zero(), Vec3::Zero()};
+    held_[i] = bodies[i].mass * bodies[i].gravity_scale * gravity;
+  }
+  corrected(bodies, stage.carried(), LedgerLine::kinematic, ledger, crew);
+  corrected(bodies, involved_, LedgerLine::projection, ledger, crew);
+}
+
+void RealtimeBooks::corrected(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                              LedgerLine line, Ledger& ledger, Crew& crew) {
   const auto change = [](const RigidBody& b, const Motion& was, bool turned, const Vec3& held) {
     LedgerEntry e;
     const Mat3 inertia = b.inertia_world();
@@ -298,10 +314,10 @@ void RealtimeBooks::corrected(std::span<const RigidBody> bodies, LedgerLine line
     return e;
   };
   std::array<LedgerEntry, chunk_count> changes;
-  for_chunks(&crew, involved_.size(), [&](size_t chunk, size_t first, size_t last) {
+  for_chunks(&crew, slots.size(), [&](size_t chunk, size_t first, size_t last) {
     LedgerEntry sum;
     for (size_t k = first; k < last; ++k) {
-      const uint32_t i = involved_[k];
+      const uint32_t i = slots[k];
       const RigidBody& b = bodies[i];
       Motion& was = last_[i];
       const bool turned = b.pose.q.coeffs() != was.pose.q.coeffs();

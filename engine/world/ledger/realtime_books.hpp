@@ -13,6 +13,7 @@
 #include <vector>
 
 namespace tumble {
+class ContinuousStage;
 
 /// Books an entry on the line of a force, or on the user's if the force is the mouse.
 void book_share(Ledger& ledger, const std::optional<ForceDef>& def, uint32_t slot,
@@ -54,6 +55,10 @@ class RealtimeBooks {
   /// After a stage that corrects the solver's result or stops bodies: all changes since end_part(),
   /// or since the last call, are booked on this line.
   void corrected(std::span<const RigidBody> bodies, LedgerLine line, Ledger& ledger, Crew& crew);
+  /// Books what the continuous stage changed: of bodies that kinematic ones carried along as work
+  /// of these, of the others as projection.
+  void put_back(std::span<const RigidBody> bodies, const ContinuousStage& stage,
+                const Vec3& gravity, Ledger& ledger, Crew& crew);
   /// Before particles are integrated; particles that are blocks are booked as bodies.
   void particles(std::span<const ParticleSystem> systems,
                  const std::vector<std::optional<ForceDef>>& forces, const Vec3& gravity, double h,
@@ -63,6 +68,9 @@ class RealtimeBooks {
   }
 
  private:
+  /// Books the change of these bodies since they were last booked.
+  void corrected(std::span<const RigidBody> bodies, std::span<const uint32_t> slots,
+                 LedgerLine line, Ledger& ledger, Crew& crew);
   struct Motion {
     Pose pose;
     Vec3 v, omega;
