@@ -14,7 +14,7 @@ namespace {
 using CellKey = std::array<int64_t, 3>;
 
 /// The whole number below, no farther from 0 than cells can be told apart.
-int64_t whole(double x) {
+int64_t whole_cell(double x) {
   constexpr double most = tolerances::most_cells;
   return int64_t(std::max(-most, std::min(most, std::floor(x))));
 }
@@ -25,7 +25,7 @@ class RadialCells {
  public:
   RadialCells(std::span<const Vec3> points, const PeriodicBox& box, double range) : box_(box) {
     for (int k = 0; k < 3; ++k) {
-      count_[size_t(k)] = box.along(k) ? std::max<int64_t>(1, whole(box.size[k] / range)) : 0;
+      count_[size_t(k)] = box.along(k) ? std::max<int64_t>(1, whole_cell(box.size[k] / range)) : 0;
       edge_[k] = box.along(k) ? box.size[k] / double(count_[size_t(k)]) : range;
     }
     members_.reserve(points.size());
@@ -83,7 +83,7 @@ class RadialCells {
 
   CellKey key_of(const Vec3& x) const {
     CellKey key{};
-    for (int k = 0; k < 3; ++k) key[size_t(k)] = whole((x[k] - box_.low[k]) / edge_[k]);
+    for (int k = 0; k < 3; ++k) key[size_t(k)] = whole_cell((x[k] - box_.low[k]) / edge_[k]);
     return around(key);
   }
   CellKey around(CellKey key) const {
