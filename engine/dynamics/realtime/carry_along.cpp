@@ -180,8 +180,6 @@ void ContinuousStage::carry_along(std::span<RigidBody> bodies, double h, Crew& c
     sweeping_.clear();
     time_in_the_way(bodies, h, crew, stats);
     for (const Candidate& met : in_the_way_) {
-      // What slides along the carrier and gets no deeper is left to the solver.
-      if (met.stop.undecided) continue;
       carry(bodies, met, h);
       sweeping_.push_back(met.b.body);
     }

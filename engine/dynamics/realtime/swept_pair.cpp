@@ -141,10 +141,7 @@ class Sweep {
   bool walk(double until) {
     while (t_ < until && now_.touch && !stop_requested()) {
       stop_ = {t_, now_.depth > 0, now_.at, now_.normal};
-      if (++looks_ > tolerances::most_looks) {
-        stop_.undecided = true;
-        return false;
-      }
+      if (++looks_ > tolerances::most_looks) return false;
       const double far =
           now_.closing > 0 ? tolerances::look_step * p_.allowed / now_.closing : no_contact_time;
       see(std::min(until, t_ + far));

@@ -42,7 +42,6 @@ struct SweptStop {
   bool deepens = false;
   Vec3 at = Vec3::Zero();       ///< in world coordinates [m]
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B
-  bool undecided = false;  ///< the two still touched at the last look, no deeper than is allowed
 };
 
 /// The time in [0, h] at which a pair must be stopped so that its overlap never exceeds

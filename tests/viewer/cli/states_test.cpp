@@ -95,7 +95,7 @@ TEST_CASE("pictures drawn from states are those of a run that simulates, to the 
   }
 }
 
-TEST_CASE("states are drawn in other colours and light; what moves the world is refused") {
+TEST_CASE("states are drawn in other colours and light, and what moves the world is refused") {
   const States s;
   REQUIRE(s.simulate("states", {"--seconds", "0.3"}).code == 0);
   const auto drawn = [&](const std::string& out, std::vector<std::string> sets) {
