@@ -20,10 +20,9 @@ double ContinuousStage::way_along(std::span<const RigidBody> bodies, ShapeRef re
   const Motion& motion = tracks_[ref.body].motion;
   const Pose before = starts_[carrier].pose.inverse() * motion.start * shape.pose;
   const Pose after = frame.pose.inverse() * body.pose * shape.pose;
-  const double sine = (after.q * before.q.conjugate()).vec().norm();
   const double angle = tracks_[carrier].motion.omega.norm() * h_;
   return (after.x - before.x).norm() + arc_height(angle, before.x.norm()) +
-         std::min(3.2 * sine, 2.0) * shape.shape->bounding_radius();
+         turned_by(before.q, after.q, shape.shape->bounding_radius());
 }
 
 void ContinuousStage::list_places(std::span<const RigidBody> bodies) {

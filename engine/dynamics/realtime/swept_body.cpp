@@ -22,13 +22,15 @@ Motion tick_motion(const Pose& start, const RigidBody& body, double h) {
   return m;
 }
 
+double turned_by(const Quat& from, const Quat& to, double radius) {
+  const double sine = (to * from.conjugate()).vec().norm();
+  return sine == 0 ? 0 : std::min(3.2 * sine, 2.0) * radius;
+}
+
 double way_of(const RigidBody& body, const Pose& start, double h) {
   const double straight = (body.pose.x - start.x).norm();
   if (winds(body, h)) return straight + 2 * body.bounding_radius;
-  // The angle is 2 asin(sine) <= pi sine, and no point moves farther by rotation than twice its
-  // distance.
-  const double sine = (body.pose.q * start.q.conjugate()).vec().norm();
-  return sine == 0 ? straight : straight + std::min(3.2 * sine, 2.0) * body.bounding_radius;
+  return straight + turned_by(start.q, body.pose.q, body.bounding_radius);
 }
 
 double unwatched(const RigidBody& body) {

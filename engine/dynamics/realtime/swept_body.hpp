@@ -11,6 +11,11 @@ bool winds(const RigidBody& body, double h);
 /// The motion in a tick of `h` seconds from pose `start` to `body.pose`.
 Motion tick_motion(const Pose& start, const RigidBody& body, double h);
 
+/// Bound on how far a point within `radius` [m] of the centre goes when a body turns from one
+/// orientation to another: the angle is 2 asin of the sine of its half, at most pi times it, and no
+/// point comes farther than twice its distance [m].
+double turned_by(const Quat& from, const Quat& to, double radius);
+
 /// Upper bound on the displacement of any point of a body in a tick that began at `start` [m].
 double way_of(const RigidBody& body, const Pose& start, double h);
 
