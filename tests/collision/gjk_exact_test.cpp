@@ -246,6 +246,32 @@ TEST_CASE("spheres, capsules and cylinders have the closed form") {
   }
 }
 
+TEST_CASE("curved shapes meet the bounds of GJK, and seldom need double-double arithmetic") {
+  Random r(97);
+  const std::vector<std::shared_ptr<const Shape>> shapes = {
+      cone(0.5, 1), cone(0.1, 0.2), cylinder(0.3, 0.8), ellipsoid({0.2, 0.5, 0.9}),
+      box({0.2, 3, 0.2})};
+  const int count = cases(4000);
+  int precise = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto &a = shapes[size_t(i) % shapes.size()], &b = shapes[size_t(i) / 5 % 4];
+    const PlacedCore A{*a->convex(), random_rotation(r), Vec3::Zero()};
+    PlacedCore B{*b->convex(), random_rotation(r), random_direction(r) * 6};
+    // B moved along the normal until a gap of the wanted size is left
+    GjkResult g = gjk(A, B);
+    B.x -= g.normal * (g.distance - std::pow(10.0, -r.uniform(0.5, 4)));
+    g = gjk(A, B);
+    REQUIRE(g.status == GjkStatus::separated);
+    precise += g.precise;
+    const double between = g.normal.dot(B.support(-g.normal)) - g.normal.dot(A.support(g.normal));
+    const double apart = (g.b - g.a).norm();
+    CHECK(apart - between <= 1e-11);
+    CHECK(std::abs(apart - g.distance) <= 1e-11);
+  }
+  MESSAGE(precise << " of " << count << " precise");
+  CHECK(precise * 20 <= count);
+}
+
 TEST_CASE("GJK and EPA with hostile input return") {
   const auto a = box({1, 1, 1}), c = cylinder(1, 1);
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");

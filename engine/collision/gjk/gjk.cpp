@@ -71,7 +71,9 @@ class Search {
   template <class Scan>
   void run() {
     Step step = run_fast<Scan>();
-    if (step == Step::stuck) step = go_on_precisely();
+    // weights that miss the nearest point are those of a sliver, whose nearest point is in doubt
+    // too
+    if (step == Step::stuck || !weigh()) step = go_on_precisely();
     write(step);
   }
 
@@ -87,6 +89,16 @@ class Search {
   Step advance_precisely();
   /// Evaluates the support plane through w.
   [[gnu::always_inline]] inline Step judge(const NearestPoint& near, const Plain3& w);
+  /// Whether the bounds are close enough for a result if the search can go no further: curved
+  /// shapes come so close in double precision, where their simplices have become too small.
+  /// `vv` is the square of the upper bound.
+  bool bounds_suffice(double vv) const {
+    return vv - plane_ <= bounds_allowed * scale_ * std::sqrt(vv);
+  }
+  bool weigh() {
+    Simplex& s = r_.simplex;
+    return weigh_in_double(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near_.v), tolerance_);
+  }
   void write(Step step);
 
   const GjkOptions& options_;
@@ -141,7 +153,7 @@ Step Search::run_fast() {
     const Step step = recall(*options_.start);
     if (step != Step::onward) return step;
   }
-  Order order;
+  Order order, before;
   if (s.count > 0) {
     near.take(near_);
     for (int i = 0; i < s.count; ++i) take(points_[i], s.points[size_t(i)]), order.put(i);
@@ -161,11 +173,13 @@ Step Search::run_fast() {
       order.put(place);
       next = {w, w.squared(), w, 0};
     } else {
-      step = ++iterations > most ? Step::stuck : judge(near, w);
-      if (step == Step::onward && holds(order, w)) step = Step::stuck;
+      step = judge(near, w);
+      if (step == Step::onward && (++iterations > most || holds(order, w))) step = Step::stuck;
       if (step != Step::onward) break;
+      before = order;
       step = reduce_fast(w, place, order, next);
       if (step == Step::onward && !(next.vv < near.vv)) step = Step::stuck;
+      if (step == Step::stuck && bounds_suffice(near.vv)) order = before;
       if (step != Step::onward) break;
     }
     near = next;
@@ -174,7 +188,7 @@ Step Search::run_fast() {
   r_.iterations = iterations;
   near_.take(near);
   gather(order);
-  return step;
+  return step == Step::stuck && bounds_suffice(near.vv) ? Step::separated : step;
 }
 
 inline bool Search::holds(const Order& order, const Plain3& w) const {
@@ -236,18 +250,11 @@ Step Search::go_on_precisely() {
   if (reduce_precisely(r_.simplex, near_) == Reduction::inside) return Step::intersecting;
   Step step = Step::onward;
   while (step == Step::onward) step = advance_precisely();
-  if (step == Step::stuck && near_.vv - plane_ <= bounds_allowed * scale_ * std::sqrt(near_.vv))
-    return Step::separated;
-  return step;
+  return step == Step::stuck && bounds_suffice(near_.vv) ? Step::separated : step;
 }
 
 void Search::write(Step step) {
   Simplex& s = r_.simplex;
-  if (!r_.precise &&
-      !weigh_in_double(s, s.count == 4 ? Plain3{0, 0, 0} : one_by_one(near_.v), tolerance_)) {
-    NearestPoint same;
-    reduce_precisely(s, same);
-  }
   r_.a = difference_.point_out(s.nearest_a());
   r_.b = difference_.point_out(s.nearest_b());
   if (step == Step::intersecting) {

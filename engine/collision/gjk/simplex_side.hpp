@@ -93,18 +93,24 @@ struct SimplexSide {
                over_adb = side * adb.dot(a);
   const double doubt = doubtful_volume(
       std::max(std::max(a.squared(), b.squared()), std::max(c.squared(), d.squared())));
-  if (!(std::abs(volume) > doubt)) return Reduction::unclear;
+  const bool flat = !(std::abs(volume) > doubt);
   const double highest = std::max(over_abc, std::max(over_acd, over_adb));
-  if (highest <= doubt) return highest < -doubt ? Reduction::inside : Reduction::unclear;
+  if (!flat && highest <= doubt) return highest < -doubt ? Reduction::inside : Reduction::unclear;
   const auto offer = [&](int ib, const Plain3& p, int ic, const Plain3& q, const Plain3& n)
       __attribute__((always_inline)) {
     SimplexSide other;
     on_triangle(a, 3, p, ib, q, ic, n, other);
     if (other.at.vv < s.at.vv) s = other;
   };
-  if (over_abc > 0) offer(2, b, 1, c, abc);
-  if (over_acd > 0) offer(1, c, 0, d, acd);
-  if (over_adb > 0) offer(0, d, 2, b, adb);
+  if (flat || over_abc > 0) offer(2, b, 1, c, abc);
+  if (flat || over_acd > 0) offer(1, c, 0, d, acd);
+  if (flat || over_adb > 0) offer(0, d, 2, b, adb);
+  if (flat) {
+    // No point of the tetrahedron is farther from these three sides than its height over the
+    // largest.
+    const double side2 = std::max(abc.squared(), std::max(acd.squared(), adb.squared()));
+    if (!(s.at.vv * side2 > 4 * doubt * doubt)) return Reduction::unclear;
+  }
   s.sort();
   return Reduction::outside;
 }
