@@ -148,6 +148,7 @@ TEST_CASE("--csv knows what joints do by the names of --assert") {
     const auto csv = folder / (std::string(stepper) + ".csv");
     REQUIRE(tumble_program({"simulate", scene, "--seconds", "1", "--stepper", stepper, "--csv",
                             csv.string(), "--assert", "abs(joints.door.motor_torque) < 1e-6",
+                            "--assert", "abs(joints.door.angle_deg - 2 * 180 / pi) < 1e-6",
                             "--assert", "joints.rail.motor_force == joints.rail.position_motor"})
                 .code == 0);
     const auto lines = lines_of(read_all(csv));

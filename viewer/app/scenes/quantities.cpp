@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -51,14 +52,15 @@ std::string_view motor_of(const JointCoordinate& c) {
   return c.angle ? "motor_torque" : "motor_force";
 }
 
-/// "angle", "angle_rate", "angle_motor" or "angle_motor_torque", and the latter without a name
-/// where there is only one coordinate.
+/// "angle", "angle_deg", "angle_rate", "angle_motor" or "angle_motor_torque", and the last three
+/// without a name where there is only one coordinate.
 std::optional<double> coordinate_quantity(const JointFrame& joint, std::string_view what) {
   const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
   for (size_t k = 0; k < all.size(); ++k) {
     const CoordinateFrame& c = joint.coordinates[k];
     const std::string name(all[k].name);
     if (what == name) return c.value;
+    if (all[k].angle && what == name + "_deg") return c.value * 180 / std::numbers::pi;
     if (what == name + "_rate" || (all.size() == 1 && what == "rate")) return c.rate;
     for (const std::string_view motor : {std::string_view("motor"), motor_of(all[k])})
       if (what == name + "_" + std::string(motor) || (all.size() == 1 && what == motor))
@@ -233,6 +235,7 @@ std::string unit_of_quantity(std::string_view name) {
   if (name.ends_with("speed")) return "m/s";
   if (name.ends_with(".mass")) return "kg";
   if (name.ends_with(".angle")) return "rad";
+  if (name.ends_with("_deg")) return "deg";
   for (const auto& [part, unit] : units)
     if (name.find(part) != std::string_view::npos) return std::string(unit);
   if (name.starts_with("energy") || name.starts_with("ledger.")) return "J";
@@ -255,11 +258,10 @@ std::string quantity_help() {
          "  .fluid_force .fluid_torque (of all fluids, mean of the last tick);\n"
          "  bodies.NAME.speed .angular_speed .mass .asleep\n"
          "  joints.NAME.angle .position ... (value of the coordinate of this name [rad, m]),\n"
-         "  .angle_rate, .angle_motor_torque .position_motor_force (of its motor, mean of the "
-         "last\n"
-         "  tick; also .angle_motor), or .rate and .motor_torque .motor_force .motor where there "
-         "is\n"
-         "  one coordinate; .reaction.x .y .z and .reaction_torque.x .y .z\n"
+         "  .angle_deg (a turn in degrees), .angle_rate, .angle_motor_torque\n"
+         "  .position_motor_force (of its motor, mean of the last tick; also .angle_motor), or\n"
+         "  .rate and .motor_torque .motor_force .motor where there is one coordinate;\n"
+         "  .reaction.x .y .z and .reaction_torque.x .y .z\n"
          "  (on b, torque about the anchor, in the joint's frame on a) .broken (0 or 1)\n"
          "  particles.NAME.count .speed (root mean square) .max_speed .temperature (2/3 of a\n"
          "  particle's kinetic energy about the common motion) .pressure (mean, of a fluid), and\n"

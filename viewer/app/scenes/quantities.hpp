@@ -21,9 +21,9 @@ struct BuiltScene;
 /// - momentum.x .y .z, angular_momentum.x .y .z
 /// - bodies.NAME.position.x (.y .z), .velocity, .angular_velocity, .speed, .angular_speed, .mass,
 ///   .asleep, .up.x (the body's y axis in the world), .fluid_force.x, .fluid_torque.x
-/// - joints.NAME.angle, .angle_rate, .angle_motor_torque or .position_motor_force, of both
-/// .._motor,
-///   by the names of coordinates; .rate and .motor_torque where there is one; .reaction.x,
+/// - joints.NAME.angle, .angle_deg, .angle_rate, .angle_motor_torque or .position_motor_force (of
+///   both also .._motor), by the names of coordinates; .rate and .motor_torque where there is one;
+///   .reaction.x,
 ///   .reaction_torque.x (in the joint's frame on a), .broken
 /// - particles.NAME.count .speed .max_speed .temperature .pressure, .centre.x, .low.x, .high.x (see
 ///   ParticleMeasures)
