@@ -12,13 +12,13 @@ double angle_of(int i, int n) {
   return 2 * det::pi * i / n;
 }
 
-/// Two triangles for the quadrilateral a b c d, counter-clockwise.
+/// Adds two triangles for the quadrilateral a b c d, counter-clockwise.
 void quad(TriangleMesh& m, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   m.triangles.push_back({a, b, c});
   m.triangles.push_back({a, c, d});
 }
 
-/// A surface of revolution about Y: a bottom pole, circles (height, radius) upwards, a top pole.
+/// A surface of revolution about Y: a bottom pole, circles (height, radius) from below, a top pole.
 TriangleMesh revolve(double bottom, double top, const std::vector<Vec2>& circles, int segments) {
   TriangleMesh m;
   m.vertices.emplace_back(0, bottom, 0);
@@ -154,8 +154,9 @@ double cylinder_volume(double half_height, double radius, int segments) {
 }
 
 double torus_volume(double major, double minor, int major_segments, int minor_segments) {
-  // Between two half-planes at an angle A a section element at radius r sweeps triangles, not
-  // sectors: r sin(A) instead of r A. The centroid of the section lies at `major`.
+  // Between two half-planes at an angle A, an area element of the section at radius r sweeps
+  // triangles, not sectors: r sin(A) instead of r A. The centroid of the section is at radius
+  // `major`.
   const double area = 0.5 * minor * minor * minor_segments * det::sin(2 * det::pi / minor_segments);
   return area * major * major_segments * det::sin(2 * det::pi / major_segments);
 }

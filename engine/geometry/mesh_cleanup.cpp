@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// Union-find in which the lowest number leads.
+/// Union-find in which the lowest number is the representative.
 struct Groups {
   std::vector<uint32_t> leader;
   explicit Groups(size_t n) : leader(n) { std::iota(leader.begin(), leader.end(), 0u); }
@@ -34,11 +34,11 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// Some vertices of which none outside is near enough to any of them.
+/// Vertices of which no other vertex is near enough to be joined.
 struct Cluster {
-  size_t begin, end;  // into the order
-  int axis;           // to look along next
-  int compact;        // axes in a row along which it has no gap
+  size_t begin, end;  // range of the order
+  int axis;           // the axis to sort along next
+  int compact;        // number of consecutive axes along which it has no gap
 };
 
 /// Joins the vertices of a cluster without gaps, by a sweep along its longest axis.
@@ -60,8 +60,9 @@ void join_cluster(const std::vector<Vec3>& v, double distance, std::span<uint32_
   }
 }
 
-/// Joins vertices no further apart than `distance`: sorted along one axis after the other they fall
-/// apart at gaps, so that only what is crowded along all three is compared pair by pair.
+/// Joins vertices whose distance is at most `distance`: sorted along one axis after the other,
+/// clusters are divided at gaps, so that only vertices crowded along all three axes are compared in
+/// pairs.
 void join_near(const std::vector<Vec3>& v, double distance, Groups& groups) {
   std::vector<uint32_t> order(v.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -149,7 +150,7 @@ size_t drop_duplicate_triangles(TriangleMesh& mesh, MeshOrigin* origin,
   for (const Triangle& t : mesh.triangles) keys.push_back(sorted(t));
   std::sort(order.begin(), order.end(),
             [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  std::vector<uint32_t> first(mesh.triangles.size());  // with the same corners
+  std::vector<uint32_t> first(mesh.triangles.size());  // the first triangle with the same corners
   for (size_t i = 0; i < order.size(); ++i) {
     const bool repeated = i > 0 && keys[order[i]] == keys[order[i - 1]];
     first[order[i]] = repeated ? first[order[i - 1]] : order[i];
@@ -218,7 +219,7 @@ std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh) {
   size_t count = 0;
   const std::vector<uint32_t> part = connected_parts(mesh, &count);
   std::vector<TriangleMesh> out(count);
-  // The part that last used a vertex, and its number there: parts may share vertices.
+  // The part that last used a vertex, and its number there, since parts may share vertices.
   std::vector<std::pair<uint32_t, uint32_t>> number(mesh.vertices.size(), {no_index, 0});
   std::vector<uint32_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -242,8 +243,8 @@ std::vector<TriangleMesh> split_parts(const TriangleMesh& mesh) {
 
 std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
   const MeshTopology topology = build_topology(mesh);
-  // Open sides as directed by their faces, walked from each start until the start returns. Where
-  // the faces disagree, both ways are open to the walk.
+  // Open sides with the direction given by their faces, followed from each start until it is
+  // reached again. Where the faces disagree, both directions are allowed.
   struct OpenSide {
     uint32_t from, to, edge;
     auto operator<=>(const OpenSide&) const = default;
@@ -273,7 +274,7 @@ std::vector<std::vector<uint32_t>> find_holes(const TriangleMesh& mesh) {
       used[edge] = 1;
       place[from] = uint32_t(path.size());
       path.push_back(from);
-      if (place[to] != no_index) {  // a loop is complete; what led to it goes on
+      if (place[to] != no_index) {  // a loop is complete; the path before it continues
         holes.emplace_back(path.begin() + place[to], path.end());
         for (size_t i = place[to]; i < path.size(); ++i) place[path[i]] = no_index;
         path.resize(path.size() - holes.back().size());

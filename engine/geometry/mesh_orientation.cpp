@@ -14,7 +14,7 @@ constexpr size_t most_outer_parts = 256;
 
 struct ConnectedPart {
   std::vector<uint32_t> triangles;
-  std::vector<uint8_t> turned;  // of each triangle, relative to the first
+  std::vector<uint8_t> turned;  // of each triangle, relative to the first one
   bool orientable = true;
   bool closed = true;
   double volume6 = 0;
@@ -72,7 +72,8 @@ void measure(const TriangleMesh& mesh, ConnectedPart& part) {
   }
 }
 
-/// Whether every corner of `inner`'s box lies in `outer`'s: good enough to leave cavities alone.
+/// Whether the bounding box of `inner` lies in that of `outer`: sufficient to leave cavities
+/// unchanged.
 bool inside(const ConnectedPart& inner, const ConnectedPart& outer) {
   return outer.closed && outer.box.contains(inner.box.min) && outer.box.contains(inner.box.max) &&
          std::fabs(outer.volume6) > std::fabs(inner.volume6);
@@ -105,7 +106,7 @@ OrientationReport orient_consistently(TriangleMesh& mesh) {
     }
     measure(mesh, part);
   }
-  // Only the largest parts are asked whether they are around others: parts may be many.
+  // Only the largest parts are tested for containing others, since there may be many parts.
   std::vector<const ConnectedPart*> largest;
   for (const ConnectedPart& part : parts) {
     if (part.closed) largest.push_back(&part);

@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// By high end, equal ones staying in their order.
+/// Stable sort by the higher vertex.
 void sort_around_vertex(MeshSide* first, MeshSide* last) {
   constexpr auto less = [](const MeshSide& a, const MeshSide& b) { return a.high < b.high; };
   if (last - first > 32) {
@@ -23,7 +23,7 @@ void sort_around_vertex(MeshSide* first, MeshSide* last) {
 }  // namespace
 
 std::vector<MeshSide> sorted_sides(const TriangleMesh& mesh) {
-  // Counted into the places of their low ends, in the order of faces.
+  // Counting sort by the lower vertex, in the order of faces.
   std::vector<uint32_t> first(mesh.vertices.size() + 1, 0);
   for (const Triangle& t : mesh.triangles) {
     for (size_t k = 0; k < 3; ++k) {

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Heights below this part of the longest side are rounding error [-].
+/// Heights below this share of the longest side are rounding errors [-].
 constexpr double rounding = 1e-15;
 
 /// The corner from which a triangle's longest side starts, and that side's squared length [m^2].
@@ -29,7 +29,7 @@ LongestSide longest_side(const TriangleMesh& mesh, const Triangle& t) {
   return longest;
 }
 
-/// The edges with their triangles, kept up to date while triangles are flipped.
+/// The edges with their triangles, updated as triangles are flipped.
 class Edges {
  public:
   explicit Edges(const TriangleMesh& mesh) {
@@ -44,14 +44,15 @@ class Edges {
     }
   }
 
-  /// The triangle on the other side of an edge of t; no_index where it has not exactly two.
+  /// The triangle on the other side of an edge of t; no_index if the edge does not have exactly
+  /// two.
   uint32_t across(uint32_t a, uint32_t b, uint32_t t) const {
     const Faces& f = edges_.at(key(a, b));
     return f.count != 2 ? no_index : f.face[0] == t ? f.face[1] : f.face[0];
   }
   /// Whether the mesh has, or had, this edge.
   bool known(uint32_t a, uint32_t b) const { return edges_.contains(key(a, b)); }
-  /// Whether one more triangle may have this edge.
+  /// Whether another triangle may use this edge.
   bool free(uint32_t a, uint32_t b) const {
     const auto at = edges_.find(key(a, b));
     return at == edges_.end() || at->second.count < 2;
@@ -71,16 +72,17 @@ class Edges {
 
  private:
   struct Faces {
-    std::array<uint32_t, 2> face{no_index, no_index};  // the first two
+    std::array<uint32_t, 2> face{no_index, no_index};  // the first two triangles
     uint32_t count = 0;
   };
   static uint64_t key(uint32_t a, uint32_t b) {
     return uint64_t(std::min(a, b)) << 32 | std::max(a, b);
   }
-  std::unordered_map<uint64_t, Faces> edges_;  // looked up, never walked
+  // Only for look-ups; never iterated, since the order is unspecified.
+  std::unordered_map<uint64_t, Faces> edges_;
 };
 
-/// Splits one sliver after the other, in the order in which they become possible.
+/// Splits slivers in the order in which that becomes possible.
 class Splitter {
  public:
   Splitter(TriangleMesh& mesh, double height) : mesh_(mesh), height_(height), edges_(mesh) {
@@ -102,17 +104,17 @@ class Splitter {
     const uint32_t n = edges_.across(a, b, t);
     if (n == no_index || n == t || is_sliver(mesh_, mesh_.triangles[n], height_)) return false;
     const Triangle whole = mesh_.triangles[n];
-    size_t at = 0;  // of the corner from which the whole triangle's side a-b starts
+    size_t at = 0;  // index of the corner where side a-b of the neighbour starts
     while (whole[(at + 2) % 3] == a || whole[(at + 2) % 3] == b) ++at;
     const uint32_t p = whole[at], q = whole[(at + 1) % 3], r = whole[(at + 2) % 3];
-    // An edge that went does not come back: no flip is undone, so that the work ends.
+    // A removed edge is never added again: no flip is undone, so the process terminates.
     if (r == m || edges_.known(m, r)) return false;
     mesh_.triangles[n] = {p, m, r};
     mesh_.triangles[t] = {m, q, r};
     edges_.add(m, r, t, n);
     edges_.hand_over(p, m, t, n);
     edges_.hand_over(q, r, n, t);
-    // What could not be split because its neighbour was a sliver may be now.
+    // Slivers that could not be split because of a neighbouring sliver may be now.
     for (const uint32_t changed : {t, n}) {
       waiting_.push(changed);
       const Triangle& sides = mesh_.triangles[changed];
@@ -127,10 +129,10 @@ class Splitter {
   TriangleMesh& mesh_;
   double height_;
   Edges edges_;
-  std::queue<uint32_t> waiting_;  // triangles to look at
+  std::queue<uint32_t> waiting_;  // triangles to be examined
 };
 
-/// Vertices as a k-d tree: the middle one of each range, along one axis after the other, parts it.
+/// k-d tree of vertices: the median of each range, along one axis after the other, divides it.
 class VertexTree {
  public:
   VertexTree(const std::vector<Vec3>& places, std::vector<uint32_t> vertices)
@@ -138,7 +140,8 @@ class VertexTree {
     part(0, order_.size(), 0);
   }
 
-  /// Calls found(v) for every vertex within `reach` [m] of the segment a-b, and for some others.
+  /// Calls found(v) for every vertex within `reach` [m] of the segment a-b, and possibly for
+  /// others.
   template <class Found>
   void near_segment(const Vec3& a, const Vec3& b, double reach, const Found& found) const {
     search({a, b - a, reach}, 0, order_.size(), 0, 0, 1, found);
@@ -162,7 +165,7 @@ class VertexTree {
     part(middle + 1, end, (axis + 1) % 3);
   }
 
-  /// The part from t0 to t1 of the segment is what may be near the vertices of the range.
+  /// Searches a range; only the part t0 to t1 of the segment can be near its vertices.
   template <class Found>
   void search(const Segment& s, size_t begin, size_t end, int axis, double t0, double t1,
               const Found& found) const {
@@ -170,7 +173,8 @@ class VertexTree {
     const size_t middle = begin + (end - begin) / 2;
     found(order_[middle]);
     for (const int side : {-1, 1}) {
-      // On this side of the plane, or within reach of it: side * (start + t along - plane) >= -r.
+      // The part on this side of the plane, or within reach of it: side * (start + t along - plane)
+      // >= -r.
       const double slope = side * s.along[axis];
       const double offset = side * (s.start[axis] - places_[order_[middle]][axis]) + s.reach;
       double from = t0, to = t1;
@@ -186,7 +190,7 @@ class VertexTree {
   std::vector<uint32_t> order_;
 };
 
-/// The vertices of open edges, and these edges.
+/// The open edges and their vertices.
 struct Boundary {
   std::vector<MeshSide> sides;
   std::vector<uint32_t> vertices;
@@ -208,14 +212,14 @@ Boundary boundary_of(const TriangleMesh& mesh) {
   return out;
 }
 
-/// The vertices on a side of a triangle, from its start to its end.
+/// The vertices that lie on a side of a triangle, in order from its start to its end.
 std::vector<uint32_t> vertices_on_side(const TriangleMesh& mesh, const MeshSide& side,
                                        const VertexTree& tree, double height) {
   const Triangle& t = mesh.triangles[side.face];
   const uint32_t a = t[side.k], b = t[(side.k + 1u) % 3], c = t[(side.k + 2u) % 3];
   const Vec3 start = mesh.vertices[a], along = mesh.vertices[b] - start;
   std::vector<std::pair<double, uint32_t>> found;
-  // Twice as far as they may be: what the tree rounds off does not lose one.
+  // Twice the needed distance, so that rounding in the tree loses none.
   const double reach = 2 * std::max(height, rounding * (start.norm() + along.norm()));
   tree.near_segment(start, mesh.vertices[b], reach, [&](uint32_t m) {
     if (m == a || m == b || m == c) return;

@@ -15,10 +15,11 @@ EdgeBend bend_of(const TriangleMesh& mesh, const MeshTopology& topology, const M
   const Vec3 along = (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]);
   const double length = along.norm();
   if (!(length > 0)) return EdgeBend::flat;
-  // The normals turn about the edge by the exterior dihedral angle; positive at a ridge.
+  // The sine of the exterior dihedral angle by which the normals turn about the edge; positive at a
+  // ridge.
   const double sine = n0.cross(n1).dot(along) / length;
   if (std::fabs(sine) <= flat_sine) {
-    // Folded back by half a turn: a blade is a ridge, not flat.
+    // Folded back by a half turn: a blade counts as a ridge, not as flat.
     return n0.dot(n1) < 0 ? EdgeBend::convex : EdgeBend::flat;
   }
   return sine > 0 ? EdgeBend::convex : EdgeBend::concave;
@@ -57,7 +58,7 @@ void build_edges(const TriangleMesh& mesh, MeshTopology& out, double flat_sine) 
   }
 }
 
-/// Compressed lists: for each vertex, the items that `corners(item)` says it belongs to.
+/// Compressed lists: for each vertex, the items whose `corners(item)` contain it.
 template <class Items>
 void build_lists(size_t vertex_count, const Items& items, std::vector<uint32_t>& first,
                  std::vector<uint32_t>& list) {

@@ -68,14 +68,14 @@ SceneDescription falling_on_table(const std::filesystem::path& file) {
   return scene;
 }
 
-/// The mesh in its size, falling from a quarter of a metre above the table whichever way up it is,
-/// and a camera that sees from the floor to its top.
+/// Overrides that make the mesh fall from a quarter of a metre above the table whatever its
+/// orientation, and a camera that sees from the floor to the top of the mesh.
 std::vector<std::string> fitted_to_size(double extent) {
   constexpr double fall = 0.25;   ///< [m]
-  constexpr double turned = 1.1;  ///< half of the diagonal over the extent, and some room
+  constexpr double turned = 1.1;  ///< half of the diagonal over the extent, with a margin [-]
   const std::string top = fmt::format("({} + {} * size)", table_top + fall, 1.5 * turned);
-  // Of the height of the top: what the camera looks at, and from how far, so that both the near leg
-  // of the table and the top are in the picture.
+  // Over the height of the top: height of the camera's target, and its distance, such that both the
+  // near leg of the table and the top are in view [-].
   constexpr double target = 0.42, distance = 2;
   const Vec3 towards_camera = Vec3(1.4, 0.8, 1.9).normalized();
   std::vector<std::string> out = {
@@ -88,7 +88,7 @@ std::vector<std::string> fitted_to_size(double extent) {
   return out;
 }
 
-/// Why a file of this ending opens as nothing; "": it may be a mesh.
+/// Why a file with this ending cannot be opened; "": it may be a mesh.
 std::string fault_of_kind(const std::filesystem::path& file) {
   const auto format = mesh_format_of(file);
   if (format) return {};
@@ -116,7 +116,7 @@ SceneRead drop_in_scene(const std::filesystem::path& mesh_file, const ReadOption
     return out;
   }
   const double extent = bounds(imported->mesh).extent().maxCoeff();
-  // Through the text, so that overrides and parameters work as in any scene.
+  // Made as text, so that overrides and parameters work as in any scene.
   ReadOptions all;
   all.overrides = fitted_to_size(extent);
   all.overrides.insert(all.overrides.end(), options.overrides.begin(), options.overrides.end());

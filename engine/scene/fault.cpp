@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// `inner` is `outer` or a place inside it.
+/// Whether `inner` is equal to `outer` or a path inside it.
 bool is_within(std::string_view inner, std::string_view outer) {
   if (!inner.starts_with(outer)) return false;
   return inner.size() == outer.size() || outer.empty() || inner[outer.size()] == '.' ||
@@ -23,7 +23,7 @@ std::string Fault::text() const {
 }
 
 void FaultList::add(Fault fault) {
-  // Enough to see what is wrong; a file of noise must not fill the screen or the memory.
+  // Limits the faults of a file that is not a scene at all.
   constexpr size_t most = 200;
   if (faults_.size() >= most) return;
   if (faults_.size() == most - 1) fault.message += " (further faults are not listed)";

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// Where the parser is in the text.
+/// The parser's position in the text.
 struct Progress {
   int line = 1;
   bool last_was_newline = false;
@@ -46,9 +46,9 @@ class CountingIterator {
   Progress* progress_;
 };
 
-/// The parser's message in plain words: of "[json.exception.parse_error.101] parse error at line 1,
-/// column 2: syntax error while parsing object - unexpected X; expected Y" the part of use to
-/// people.
+/// The parser's message without its technical parts: of "[json.exception.parse_error.101] parse
+/// error at line 1, column 2: syntax error while parsing object - unexpected X; expected Y" only
+/// the last part is kept.
 std::string plain_message(std::string_view what) {
   if (const size_t at = what.find("] "); at != std::string_view::npos) what.remove_prefix(at + 2);
   if (what.starts_with("parse error"))
@@ -109,14 +109,14 @@ class JsonTreeBuilder {
     n.string = std::move(value);
     return scalar(std::move(n), false);
   }
-  bool binary(json::binary_t&) { return false; }  // only from binary formats
+  bool binary(json::binary_t&) { return false; }  // occurs only in binary formats
   bool start_object(std::size_t) { return open(JsonNode::Kind::object); }
   bool start_array(std::size_t) { return open(JsonNode::Kind::array); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool key(std::string& value) {
     JsonNode& object = *stack_.back();
-    // Only up to a size: quadratic search must not hang on a file of noise.
+    // Only up to this size, since a quadratic search would take too long for a file of garbage.
     if (object.keys.size() < 20000 && object.find(value))
       fault("the key '" + value + "' is given twice in one object", token_line(false));
     object.keys.push_back(std::move(value));
@@ -128,7 +128,8 @@ class JsonTreeBuilder {
   }
 
  private:
-  /// A number ends at the character after it, which may be the line's end.
+  /// The parser recognises the end of a number at the character after it, which may be a line
+  /// break.
   int token_line(bool number) const {
     return progress_.line - (number && progress_.last_was_newline ? 1 : 0);
   }
@@ -172,7 +173,7 @@ class JsonTreeBuilder {
   FaultList& faults_;
   const JsonLimits& limits_;
   JsonNode root_;
-  std::vector<JsonNode*> stack_;  ///< open ones; the last item of each is the next
+  std::vector<JsonNode*> stack_;  ///< open nodes; the last item of each is the next one
   size_t values_ = 0;
 };
 
@@ -288,7 +289,7 @@ int line_of(const JsonNode& root, std::string_view path) {
     } else if (node->is(JsonNode::Kind::array)) {
       next = *step.index < node->items.size() ? &node->items[*step.index] : nullptr;
     } else if (*step.index == 0) {
-      next = node;  // a single value given where a list may stand
+      next = node;  // a single value where a list is allowed
     }
     if (!next) break;
     node = next;

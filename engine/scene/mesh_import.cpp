@@ -24,8 +24,8 @@ Vec3 turned(const Vec3& v, UpAxis up) {
   return v;
 }
 
-/// The triangles of one part with vertices of their own; polygons with corners that do not exist
-/// are counted and left out.
+/// The triangles of one part with their own copies of vertices; polygons that refer to missing
+/// corners are counted and left out.
 TriangleMesh part_mesh(PolygonFile& file, size_t part) {
   const auto& p = file.parts[part];
   const bool last = part + 1 == file.parts.size();
@@ -60,11 +60,11 @@ void add(CleanupReport& to, const CleanupReport& from) {
   to.duplicate_triangles += from.duplicate_triangles;
 }
 
-/// Welds within this part of the largest extent unless told otherwise, and never beyond that [-].
+/// Default distance for welding, and the greatest allowed, over the largest extent [-].
 constexpr double default_weld = 1e-9, most_weld = 0.01;
 
-/// Joins the parts. Closed ones stay apart from the rest even where they touch it; open ones, such
-/// as the faces of a box with a material each, are welded to each other.
+/// Joins the parts. Closed parts are not welded to others even if they touch; open ones, such as
+/// the faces of a box with different materials, are welded to each other.
 ImportedMesh join(PolygonFile& file, double weld) {
   ImportedMesh out;
   TriangleMesh open;
@@ -133,7 +133,7 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const Import
     out.notes.push_back(fmt::format(
         "{} faces refer to vertices that do not exist and were left out", read->dropped_polygons));
   }
-  // Joining equal vertices is the way of file formats, and open surfaces have their uses.
+  // Duplicate vertices are normal in files, and open surfaces may be intended: neither is reported.
   CleanupReport unusual = out.cleanup;
   unusual.welded_vertices = unusual.unused_vertices = unusual.open_edges = unusual.holes = 0;
   if (const std::string text = unusual.text(); !text.empty()) out.notes.push_back(text);

@@ -40,7 +40,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> li
   return false;
 }
 
-/// The key that a bare value under these path keys stands for.
+/// The key that a bare value at these path steps stands for.
 std::string_view shorthand_of(const std::vector<PathStep>& steps, size_t i) {
   if (steps[i].key == "material" || (i == 1 && steps[0].key == "materials")) return "like";
   if (i == 1 && (steps[0].key == "meshes" || steps[0].key == "robots")) return "file";
@@ -48,12 +48,12 @@ std::string_view shorthand_of(const std::vector<PathStep>& steps, size_t i) {
   return {};
 }
 
-/// Walks a path and makes what is missing on the way.
+/// Follows a path and creates what is missing on it.
 class Walk {
  public:
   Walk(JsonNode& root, std::vector<PathStep> steps) : node_(&root), steps_(std::move(steps)) {}
 
-  /// The node to assign to, or null with `message` set.
+  /// The node to be assigned, or null with `message` set.
   JsonNode* run() {
     rewrite_copies();
     for (size_t i = 0; i < steps_.size(); ++i)
@@ -66,7 +66,7 @@ class Walk {
   const std::string& message() const { return message_; }
 
  private:
-  /// bodies.brick[3].mass is kept as bodies.brick.copies.3.mass.
+  /// bodies.brick[3].mass is stored as bodies.brick.copies.3.mass.
   void rewrite_copies() {
     if (steps_.size() < 3 || steps_[0].key != "bodies" || !steps_[2].index) return;
     const size_t index = *steps_[2].index;

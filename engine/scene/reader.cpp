@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// A file that is not a scene at all gets one fault, not fifty.
+/// Whether the file is a scene at all; if not, there is one fault instead of many.
 bool is_scene(const JsonNode& root, const std::string& file, FaultList& faults) {
   if (!root.is(JsonNode::Kind::object)) {
     faults.add({file, root.line, {}, "a scene is an object, got " + brief(root)});
@@ -45,7 +45,8 @@ SceneRead read_scene(std::string_view text, const std::string& file, const ReadO
   };
   auto root = parse_json(text, file, faults);
   if (!root || !is_scene(*root, file, faults)) return finish();
-  // What robots are made of must be known before their parts can be changed.
+  // Overrides that decide about robots come first, since robots must be read before their parts can
+  // be changed.
   const auto comes_first = [](const std::string& o) {
     return o.starts_with("robots") || o.starts_with("parameters");
   };
@@ -62,7 +63,7 @@ SceneRead read_scene(std::string_view text, const std::string& file, const ReadO
   source->folder = std::filesystem::path(file).parent_path();
   source->tree = std::make_shared<JsonNode>(std::move(*root));
   out.scene.source = source;
-  // What could not be read has kept its default, about which nothing need be said.
+  // A value that could not be read has kept its default, which must not cause further faults.
   const FaultList read_faults = faults;
   for (Fault& f : validate(out.scene))
     if (!read_faults.covers(f.path)) faults.add(std::move(f));

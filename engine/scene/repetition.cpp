@@ -28,7 +28,7 @@ double count_of(const RepetitionDescription& r) {
       r.kind);
 }
 
-/// Shared by the makers of frames.
+/// What the functions that make frames of copies have in common.
 struct CopyMaker {
   const SceneDescription& scene;
   uint64_t seed;
@@ -55,7 +55,7 @@ struct CopyMaker {
     return {};
   }
   Status make(const RingRepetition& r) {
-    // A full circle does not repeat its first copy at the end.
+    // On a full circle, the last copy must not coincide with the first.
     const bool full = std::fabs(std::fabs(r.arc_deg) - 360) < 1e-9;
     const double steps = full ? r.count : r.count > 1 ? r.count - 1 : 1;
     const Vec3 axis = r.axis == RingAxis::x   ? Vec3::UnitX()
@@ -76,7 +76,7 @@ struct CopyMaker {
   Status make(const FormulaRepetition& r);
 };
 
-/// Dart throwing with a grid of cells as wide as the least distance.
+/// Dart throwing with a grid whose cells are as wide as the least distance.
 Status CopyMaker::make(const ScatterRepetition& r) {
   Random random(r.seed.value_or(seed));
   std::map<std::array<int64_t, 3>, std::vector<Vec3>> cells;
@@ -95,9 +95,10 @@ Status CopyMaker::make(const ScatterRepetition& r) {
     }
     return true;
   };
-  // Cells of a distance far below the region would overflow and hold no two points anyway.
+  // If the distance is far below the region's size, cell indices would overflow, and no two points
+  // share a cell anyway.
   const bool spaced = r.min_distance > 1e-9 * r.size.maxCoeff();
-  // Dense packings take ever more throws; what does not fit within these does not fit.
+  // Dense packings need ever more trials; what is not placed within this limit is given up.
   const int64_t most_throws = 2000 + 20 * int64_t{r.count};
   int64_t throws = 0;
   for (int i = 0; i < r.count; ++i) {
@@ -149,7 +150,7 @@ Status CopyMaker::make(const FormulaRepetition& r) {
   return {};
 }
 
-/// Random shifts and turns, in the frame of the repetition.
+/// Adds random shifts and rotations, in the frame of the repetition.
 void add_jitter(std::vector<Pose>& frames, const RepetitionDescription& r, uint64_t seed) {
   if (r.jitter.isZero(0) && r.jitter_deg == 0) return;
   Random random(seed, 1);
@@ -221,7 +222,7 @@ Result<std::vector<Pose>> copy_poses(const SceneDescription& scene, const std::s
     const uint64_t base = named_seed(scene.seed, body_name) + level;
     std::vector<Pose> next;
     next.reserve(frames.size() * size_t(count_of(r)));
-    // Each outer copy carries its own random draws, not the same ones turned.
+    // Each outer copy has its own random numbers, instead of a rotated copy of the same.
     for (size_t outer = 0; outer < frames.size(); ++outer) {
       const uint64_t seed = base + 0x9e3779b97f4a7c15ULL * outer;
       CopyMaker maker{scene, seed, "bodies." + body_name, warnings, {}};

@@ -83,7 +83,7 @@ Result<fs::path> find_mesh_file(const fs::path& scene_folder, const std::string&
 fs::path user_folder(const char* variable, const char* under_home) {
   const char* folder = std::getenv(variable);
   const char* home = std::getenv("HOME");
-  // The specification: a path that is not absolute is to be ignored.
+  // By the specification, a path that is not absolute must be ignored.
   if (folder && fs::path(folder).is_absolute()) return folder;
   if (home && fs::path(home).is_absolute()) return fs::path(home) / under_home;
   return {};

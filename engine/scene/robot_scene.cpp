@@ -14,7 +14,7 @@ namespace {
 
 constexpr double robot_view_deg = 40;
 
-/// Sees the ball about the bounds whole, from the robot's front (+x) and its right.
+/// A camera that sees the bounding ball, from the robot's front (+x) and its right.
 CameraDescription camera_on(const Aabb& bounds) {
   CameraDescription out;
   if (bounds.empty()) return out;
@@ -50,7 +50,7 @@ SceneDescription scene_around(const RobotModel& model, const RobotParts& parts) 
 }  // namespace
 
 SceneRead robot_scene(const std::filesystem::path& file, const ReadOptions& options) {
-  // Read once for what stands around it, and once more as what the overrides make of it.
+  // Read once to find what surrounds it, and again as part of the scene with the overrides.
   RobotLog log;
   const RobotModel model = read_robot_file(file, {}, log);
   RobotParts parts;

@@ -5,10 +5,10 @@
 
 namespace tumble {
 
-/// The scene for a bare robot file (URDF, MJCF): it stands as the file places it, z turned up, held
-/// by motors, over a floor where it has none, with a camera that sees it whole. It is
-/// `robots.robot` of the scene, so that `--set robots.robot.base=floating` and the like work, and
-/// its parts have the file's names. Faults: the file cannot be read as a robot.
+/// The scene for a bare robot file (URDF, MJCF): the robot is placed as in the file, with z turned
+/// up, held by motors, on a floor if the file has none, with a camera that sees it whole. It is
+/// `robots.robot` of the scene, so that `--set robots.robot.base=floating` works, and its parts
+/// have the file's names. Faults: the file cannot be read as a robot.
 SceneRead robot_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 
 }  // namespace tumble

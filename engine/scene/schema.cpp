@@ -38,7 +38,7 @@ class SchemaVisitor final : public StructVisitor {
 
  private:
   /// A reference to the definition of a struct, which is made on first use; structs without a
-  /// schema_name are written out in place.
+  /// schema_name are written in place.
   Json reference(const StructType& type);
   void show_defaults(const StructType& type) {
     part(StructRef{const_cast<void*>(type.defaults), &type});
@@ -160,7 +160,7 @@ Json SchemaVisitor::reference(const StructType& type) {
   if (type.schema_name.empty()) return describe(type);
   const std::string name(type.schema_name);
   if (!definitions_.contains(name)) {
-    definitions_[name] = nullptr;  // keeps its place in the order
+    definitions_[name] = nullptr;  // reserves its place in the order
     Json made = describe(type);
     definitions_[name] = std::move(made);
   }
@@ -179,7 +179,7 @@ Json SchemaVisitor::describe(const StructType& type) {
 void SchemaVisitor::put(const Parameter& p, Json schema) {
   std::string doc(p.doc);
   if (!p.unit.empty()) doc += " [" + std::string(p.unit) + "]";
-  // Draft 7 ignores what stands beside a $ref.
+  // Draft 7 ignores keys beside a $ref.
   if (schema.contains("$ref")) {
     Json wrapped = {{"allOf", Json::array({Json{{"$ref", schema["$ref"]}}})}};
     if (schema.contains("default")) wrapped["default"] = schema["default"];

@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// Names that one part of a scene uses for another.
+/// Checks the names by which parts of a scene refer to each other.
 class ReferenceCheck {
  public:
   ReferenceCheck(const SceneDescription& scene, const FaultSink& sink)
@@ -96,7 +96,7 @@ class ReferenceCheck {
                               copies - 1));
     }
   }
-  /// Radii as of shapes: particles collide as balls.
+  /// Checks radii like those of shapes, since particles collide as balls.
   void particles(const ParticleSystemDescription& p, const std::string& path) {
     const auto check = [this](double radius, const std::string& at) {
       if (radius > 0 && radius < min_shape_size)
@@ -107,7 +107,7 @@ class ReferenceCheck {
       if (p.list[i].radius) check(*p.list[i].radius, fmt::format("{}.list[{}].radius", path, i));
     weaves(p, path);
   }
-  /// "ball" or "brick[3]".
+  /// Checks a name such as "ball" or "brick[3]".
   void body_name(const std::string& name, const std::string& path) {
     const size_t bracket = name.find('[');
     const std::string base = name.substr(0, bracket);
@@ -181,7 +181,7 @@ class ReferenceCheck {
     if (!scene_.joints.find(base))
       sink_(path + ".couple.joint", unknown_name("joint", base, scene_.joints.names()));
   }
-  /// The ends of a joint, for the first and the last copy if it has several.
+  /// Checks the ends of a joint, for the first and the last copy if it has several.
   void joint(const JointDescription& j, const std::string& path) {
     couple(j.drive, path);
     JointDescription::for_drives(j, [&](const std::string& name, const auto& drive) {
@@ -192,7 +192,7 @@ class ReferenceCheck {
     counted_body(j.a, j.count, path + ".a");
     counted_body(j.b, j.count, path + ".b");
   }
-  /// A body's name in which the brackets may hold an expression in i = 0 .. count - 1.
+  /// Checks a body's name whose brackets may contain an expression in i = 0 .. count - 1.
   void counted_body(const std::string& name, int count, const std::string& path) {
     if (name.empty()) return;
     if (count == 1 || !scene_.bodies.find(name.substr(0, name.find('['))))
@@ -225,7 +225,7 @@ class ReferenceCheck {
   }
   void radial(const RadialDescription& d, const std::string& path) {
     systems(d.particles, path + ".particles");
-    std::optional<Vec3> size;  // of the box of the first; where it is does not change distances
+    std::optional<Vec3> size;  // of the box of the first; its position does not affect distances
     for (size_t i = 0; i < d.particles.size(); ++i) {
       const std::string& name = d.particles[i];
       const std::string at = fmt::format("{}.particles[{}]", path, i);
@@ -260,7 +260,7 @@ class ReferenceCheck {
       sink_(path + ".particles",
             unknown_name("particle system", a.particles, scene_.particles.names()));
   }
-  /// A body, or one with copies, which stands for all of them.
+  /// Checks the name of a body; that of a body with copies stands for all of them.
   void body_or_copies(const std::string& name, const std::string& path) {
     if (!name.empty() && !scene_.bodies.find(name)) body_name(name, path);
   }
@@ -292,7 +292,7 @@ class ReferenceCheck {
   void acted_on(const auto& field, const std::string& path) {
     for (size_t i = 0; i < field.bodies.size(); ++i) {
       const std::string& name = field.bodies[i];
-      if (!scene_.bodies.find(name))  // which stands for its copies, too
+      if (!scene_.bodies.find(name))  // the name also stands for its copies
         body_name(name, path + ".bodies[" + std::to_string(i) + "]");
     }
     systems(field.particles, path + ".particles");

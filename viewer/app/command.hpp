@@ -11,11 +11,11 @@ namespace tumble {
 
 class Options;
 
-/// What a parsed command does; gives the exit code.
+/// The action of a parsed command; returns the exit code.
 using CommandAction = std::function<int()>;
 
-/// One subcommand: its name, one line for the list, and a function that declares its
-/// options and says what to do with them once they are parsed. One more command: a file in
+/// One subcommand: its name, one line for the list of commands, and a function that declares its
+/// options and returns the action to run once they are parsed. To add a command: a file in
 /// commands/, a line below and in commands.cpp, a test in tests/viewer/cli.
 struct CommandEntry {
   std::string_view name;
@@ -39,7 +39,7 @@ CommandAction declare_verify(Options& options);
 /// Every subcommand in the order of the help.
 const std::vector<CommandEntry>& all_commands();
 
-/// The whole program after main's set-up: parses, runs and answers with an exit code.
+/// Everything main does after its set-up: parses, runs and returns the exit code.
 int run_command_line(std::span<const std::string> arguments);
 
 }  // namespace tumble

@@ -38,7 +38,7 @@ std::vector<std::string> with_command(std::span<const std::string> arguments) {
   return out;
 }
 
-/// A single word that is neither a command nor a scene is more likely a misspelt command.
+/// A single word that is neither a command nor a scene is probably a misspelt command.
 std::string misspelt_command(std::span<const std::string> arguments) {
   if (arguments.empty()) return {};
   const std::string& word = arguments[0];
@@ -56,7 +56,7 @@ std::string misspelt_command(std::span<const std::string> arguments) {
   return unknown_name("command or scene", word, names);
 }
 
-/// What to do where a word was not expected: the value of a flag may only follow after "=".
+/// Advice for an unexpected word: the value of a flag may only follow after "=".
 std::string cure_of_extras(const CLI::App& command, std::span<const std::string> arguments) {
   for (size_t i = 0; i + 1 < arguments.size(); ++i) {
     const std::string &name = arguments[i], &next = arguments[i + 1];
@@ -69,7 +69,7 @@ std::string cure_of_extras(const CLI::App& command, std::span<const std::string>
   return {};
 }
 
-/// The code of a command, unless what it printed could not be written.
+/// Flushes stdout and returns `code`, or the code for an output that could not be written.
 int flushed(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
@@ -77,11 +77,12 @@ int flushed(int code) {
   return code == exit_ok || code == exit_negative ? unwritten : code;
 }
 
-/// Runs a command; what it cannot print is exit 5, whatever layer notices first.
+/// Runs a command; output that cannot be written ends with exit code 5, no matter which layer
+/// notices it.
 int run_action(const CommandAction& action) {
   try {
     return flushed(action());
-  } catch (const std::system_error&) {  // fmt::print
+  } catch (const std::system_error&) {  // thrown by fmt::print
     if (!std::ferror(stdout)) throw;
     return report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
   }

@@ -8,18 +8,18 @@
 
 namespace tumble {
 
-/// A renderer with what it stands on; destroyed in reverse order.
+/// A renderer with its device and context; destroyed in reverse order.
 struct Drawing {
   std::unique_ptr<GlContext> context;
   std::unique_ptr<Device> device;
   std::unique_ptr<Renderer> renderer;
 };
 
-/// With the context of this name (`--context`) and the shaders of the program. What is chosen goes
-/// to the log; errors say why nothing can draw here.
+/// Makes the graphics context of this name (`--context`) and a renderer with the program's shaders.
+/// The choice is logged; the error says why nothing can be drawn on this machine.
 Result<Drawing> make_drawing(const std::string& context, const LogSink& log);
 
-/// Reads WxH, each 1 to 16384.
+/// Parses WxH, each 1 to 16384.
 Status parse_picture_size(const std::string& text, int& width, int& height);
 
 /// Names that `--context` takes, for its help.

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// What the program answers to its caller; the same meaning in every command.
+/// Exit codes of the program, with the same meaning in every command.
 enum ExitCode : int {
   exit_ok = 0,
   exit_negative = 1,       ///< images differ, an assertion fails, a replay diverges
@@ -17,11 +17,11 @@ enum ExitCode : int {
   exit_terminated = 143,   ///< SIGTERM
 };
 
-/// Writes "tumble: place: message (cure)" to stderr and gives `code` back.
+/// Writes "tumble: place: message (cure)" to stderr and returns `code`.
 int report(const Error& error, ExitCode code);
 /// The same for a warning, without a code.
 void warn(const Error& warning);
-/// The same for a bad_alloc, in any thread; takes no memory.
+/// The same for a bad_alloc, in any thread; allocates no memory.
 ExitCode report_no_memory();
 
 }  // namespace tumble

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Ends the program where an exception cannot reach main: one thrown in another thread, or in a
+/// Ends the program for an exception that cannot reach main: one thrown in another thread, or in a
 /// parallel loop.
 [[noreturn]] void end_without_catch() {
   try {
@@ -27,7 +27,8 @@ namespace {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file beyond `ulimit -f` shall be a reported error (exit 5), not a silent death.
+  // A file beyond `ulimit -f` becomes a reported error (exit code 5) instead of ending the program
+  // by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(end_without_catch);
   try {
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
     return tumble::run_command_line(arguments);
   } catch (const std::bad_alloc&) {
     return tumble::report_no_memory();
-  } catch (const std::exception& e) {  // a library's own
+  } catch (const std::exception& e) {  // from a library
     std::fprintf(stderr, "tumble: %s\n", e.what());
     return tumble::exit_broken_down;
   }

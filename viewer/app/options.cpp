@@ -16,7 +16,7 @@
 namespace tumble {
 namespace {
 
-/// The whole text as a number.
+/// Parses a number, if the whole text is one.
 template <class Number>
 std::optional<Number> number_of(const std::string& text) {
   Number value{};
@@ -25,7 +25,8 @@ std::optional<Number> number_of(const std::string& text) {
   return value;
 }
 
-/// Refuses what is no number from `least` to `greatest`: not a number at all, or NaN, too.
+/// Validator for numbers from `least` to `greatest`; also rejects NaN and everything that is not a
+/// number.
 template <class Number>
 CLI::Validator range(Number least, Number greatest, const char* kind) {
   return CLI::Validator(

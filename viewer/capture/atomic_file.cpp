@@ -39,7 +39,7 @@ Error io_error(const fs::path& path, std::string_view doing, int error) {
           doing == "open" || doing == "read" ? std::string() : cure_of(error)};
 }
 
-/// Writes all bytes; 0 or errno.
+/// Writes all bytes; returns 0 or errno.
 int write_all(int fd, std::span<const std::byte> content) {
   while (!content.empty()) {
     const ssize_t n = ::write(fd, content.data(), content.size());

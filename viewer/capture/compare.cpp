@@ -26,7 +26,7 @@ std::vector<uint8_t> pixel_differences(const Image& a, const Image& b, uint64_t&
   return worst;
 }
 
-/// Union-find over pixels, roots hold negative sizes.
+/// Union-find over pixels; roots hold the negative size of their set.
 class Clusters {
  public:
   explicit Clusters(size_t n) : parent_(n, -1) {}

@@ -10,14 +10,14 @@
 
 namespace tumble {
 
-/// When two pictures count as equal. The defaults are the rule for pictures of different renderers.
+/// When two pictures count as equal. The defaults are meant for pictures of different renderers.
 struct CompareLimits {
-  double tolerance = 2;          ///< difference of a channel that does not count [1/255]
-  double max_differing = 0.001;  ///< share of pixels that may differ beyond it, 0..1
-  uint64_t max_cluster = 16;     ///< the largest cluster must be smaller than this [px]
+  double tolerance = 2;          ///< greatest difference of a channel that is ignored [1/255]
+  double max_differing = 0.001;  ///< share of pixels that may differ by more, 0..1
+  uint64_t max_cluster = 16;  ///< the largest cluster of such pixels must be smaller than this [px]
 };
 
-/// How far two pictures of the same size are apart. A pixel's difference is that of its worst
+/// Difference between two pictures of the same size. The difference of a pixel is that of its worst
 /// channel; clusters are 8-connected.
 struct ImageDifference {
   bool same_size = true;
@@ -25,40 +25,41 @@ struct ImageDifference {
   double mean_difference = 0;  ///< over all pixels and channels [1/255]
   uint64_t pixels = 0;
   uint64_t differing = 0;        ///< pixels beyond the tolerance
-  uint64_t largest_cluster = 0;  ///< pixels beyond the tolerance that hang together
+  uint64_t largest_cluster = 0;  ///< size of the largest cluster of these [px]
   double share() const { return pixels ? double(differing) / double(pixels) : 0; }
 };
 
 ImageDifference compare_images(const Image& expected, const Image& actual, double tolerance);
-/// Within the limits; pictures of unequal size never are.
+/// Whether the difference is within the limits; false for pictures of unequal size.
 bool within(const ImageDifference& difference, const CompareLimits& limits);
 
 /// The expected picture in pale grey, differences within the tolerance in blue, beyond it in red.
 Image difference_image(const Image& expected, const Image& actual, double tolerance);
 
-/// One pair of files, a file that has no counterpart, or one that cannot be read.
+/// Comparison of a pair of files; one may be missing or unreadable.
 struct FileComparison {
   std::string name;
   enum class Kind { compared, only_expected, only_actual, unreadable } kind = Kind::compared;
   ImageDifference difference;
   bool equal = false;
-  Error error;  ///< of an unreadable one
+  Error error;  ///< of an unreadable file
 };
 
 struct CompareOptions {
   CompareLimits limits;
-  std::filesystem::path diff;  ///< file, or folder when folders are compared; empty: none
-  bool bless = false;          ///< copy the actual over the expected where they differ
+  /// Difference image, or the folder for them when folders are compared; empty: none.
+  std::filesystem::path diff;
+  bool bless = false;  ///< replace expected files that differ by the actual ones
 };
 
-/// Compares two pictures, or the pictures of two folders by name. An unreadable picture is a
-/// failure (ErrorCode::parse or io); in folders it is one of the files of the report, and the
-/// others are compared nevertheless. What cannot be written has `cannot_write` set.
+/// Compares two pictures, or the pictures of two folders by name. An unreadable picture is an error
+/// (ErrorCode::parse or io); in a folder it is listed in the report, and the other files are still
+/// compared. If a file could not be written, `cannot_write` is set.
 struct ComparisonReport {
   std::vector<FileComparison> files;
   bool blessed = false;
   bool equal() const;
-  /// How many files are of this kind.
+  /// The number of files of this kind.
   size_t count(FileComparison::Kind kind) const;
 };
 struct CompareFailure {

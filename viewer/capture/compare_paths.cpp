@@ -25,7 +25,7 @@ Result<std::set<std::string>> pictures_of(const fs::path& folder) {
   return names;
 }
 
-/// Makes `expected` the same file as `actual`, byte for byte.
+/// Copies `actual` to `expected`, byte for byte.
 Status bless(const fs::path& expected, const fs::path& actual) {
   auto content = read_file(actual);
   if (!content) return content.error();
@@ -34,7 +34,7 @@ Status bless(const fs::path& expected, const fs::path& actual) {
   return write_file(expected, *content);
 }
 
-/// Compares one pair; writes the difference image where asked.
+/// Compares one pair; writes the difference image if requested.
 CompareOutcome compare_pair(const std::string& name, const fs::path& expected,
                             const fs::path& actual, const fs::path& diff,
                             const CompareOptions& options) {
@@ -93,7 +93,7 @@ CompareOutcome compare_folders(const fs::path& expected, const fs::path& actual,
     }
     report.files.push_back(std::get<ComparisonReport>(one).files.front());
   }
-  // What asks for attention first, each part by name.
+  // Files that need attention come first; each group is sorted by name.
   std::stable_partition(report.files.begin(), report.files.end(),
                         [](const FileComparison& f) { return !f.equal; });
   return report;

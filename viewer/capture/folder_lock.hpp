@@ -5,13 +5,13 @@
 
 namespace tumble {
 
-/// Holds a folder for one run of the program, so that two do not replace each other's files. The
-/// lock is the system's own (flock(2) of the folder itself): it leaves no file behind and ends with
-/// the process, even one that is killed.
+/// Locks a folder for one run of the program, so that two runs do not replace each other's files.
+/// It is a lock of the system (flock(2) on the folder itself): it leaves no file behind and ends
+/// with the process, even if that is killed.
 class FolderLock {
  public:
-  /// Fails with ErrorCode::io when another run holds the folder, or when it cannot be opened. Where
-  /// the file system knows no locks there is none.
+  /// Fails with ErrorCode::io if another run has locked the folder, or if it cannot be opened. On
+  /// file systems without locks it succeeds without locking.
   static Result<FolderLock> take(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;

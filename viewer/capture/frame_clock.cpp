@@ -12,7 +12,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Reads digits with at most one point; false when there is anything else or too much of it.
+/// Parses digits with at most one point; false for anything else, or if the number is too large.
 bool read_decimal(std::string_view text, int64_t& num, int64_t& den) {
   num = 0;
   den = 1;
@@ -75,7 +75,7 @@ FrameTime frame_time(uint64_t k, Fraction fps, TickRate rate) {
 }
 
 uint64_t frames_until(uint64_t tick, Fraction fps, TickRate rate) {
-  // The greatest k with k fps.den rate.num <= tick fps.num rate.den, and frame 0.
+  // The greatest k with k fps.den rate.num <= tick fps.num rate.den; frames 0 to k can be shown.
   const Wide last = std::min(tick, uint64_t{1} << 40);
   return bounded(last * fps.num * rate.den / (Wide(fps.den) * rate.num) + 1);
 }

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Greatest numerator and denominator of a fraction that is read.
+/// Greatest numerator and denominator accepted when parsing a fraction.
 inline constexpr int64_t greatest_term = 1'000'000'000'000;
 
 /// A positive fraction in lowest terms.
@@ -18,28 +18,28 @@ struct Fraction {
   friend bool operator==(const Fraction&, const Fraction&) = default;
 };
 
-/// Reads "30", "2.5" or "30000/1001" exactly; `name` is the option for the error message. Zero is
-/// allowed where `allow_zero`.
+/// Parses "30", "2.5" or "30000/1001" exactly; `name` is the option, for the error message. Zero is
+/// accepted if `allow_zero`.
 Result<Fraction> parse_fraction(std::string_view text, std::string_view name,
                                 bool allow_zero = false);
 
-/// Where frame k lies between the ticks of a world.
+/// Time of a frame relative to the ticks of a world.
 struct FrameTime {
   uint64_t tick = 0;     ///< last tick not after the frame
-  int64_t rest_num = 0;  ///< the frame is (rest_num / rest_den) of a tick later
+  int64_t rest_num = 0;  ///< the frame is rest_num / rest_den of a tick later
   int64_t rest_den = 1;
   bool exact() const { return rest_num == 0; }
   double s() const { return double(rest_num) / double(rest_den); }
-  /// First tick that must have been simulated to show the frame.
+  /// The last tick needed to show the frame.
   uint64_t last_tick() const { return tick + (exact() ? 0 : 1); }
 };
 
-/// Frame k is the state at k / fps: integer arithmetic, so that it never drifts.
+/// Frame k shows the state at k / fps; computed in integers, so that it never drifts.
 FrameTime frame_time(uint64_t k, Fraction fps, TickRate rate);
-/// How many frames can be shown once `tick`, at most 2^40, has been simulated; terms of the rates
-/// are at most `greatest_term`.
+/// The number of frames that can be shown once `tick`, at most 2^40, has been simulated; terms of
+/// the rates are at most `greatest_term`.
 uint64_t frames_until(uint64_t tick, Fraction fps, TickRate rate);
-/// k / fps [s].
+/// Time of frame k, k / fps [s].
 double frame_seconds(uint64_t k, Fraction fps);
 /// round(seconds * fps), halves upwards.
 uint64_t frame_count(Fraction seconds, Fraction fps);

@@ -91,7 +91,7 @@ Status write_frames_file(const std::filesystem::path& folder, const FramesFile& 
               {"complete", f.frames.size() >= f.frames_wanted},
               {"times", times_json(f.times)},
               {"frames", Json::array()}};
-  // One frame a line: readable, and a third of the size.
+  // One frame per line: readable, and a third of the size of fully indented JSON.
   std::string text = out.dump(2, ' ', false, Json::error_handler_t::replace);
   const size_t end = text.rfind("[]");
   std::string lines = "[";

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The compressor that stb_image_write calls; the result is freed by stb with free().
+/// The compressor that stb_image_write calls; stb releases the result with free().
 unsigned char* deflate_fast(unsigned char* data, int size, int* out_size, int /*quality*/) {
   struct Free {
     void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
@@ -55,7 +55,7 @@ Result<std::vector<std::byte>> encode_png(const Image& image) {
   if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4 ||
       image.pixels.size() != image.row_bytes() * size_t(image.height))
     return Error{ErrorCode::invalid_argument, "the image is empty or its size is wrong", {}, {}};
-  // A global of stb; the same constant for every thread, and set before any of them encodes.
+  // A global variable of stb; it is set to the same constant by every thread before it encodes.
   static const bool filter_chosen = (stbi_write_force_png_filter = 2, true);
   (void)filter_chosen;
 
@@ -75,11 +75,11 @@ Status write_png(const std::filesystem::path& path, const Image& image) {
   return write_file(path, *png);
 }
 
-/// A picture of 32768 x 32768 pixels compresses to less; stb counts bytes in an int [byte].
+/// Greatest size of a file to read; stb counts bytes in an int [byte].
 constexpr size_t most_picture_bytes = size_t{1} << 30;
 
 Result<Image> read_image(const std::filesystem::path& path) {
-  // Devices and pipes may never end.
+  // Devices and pipes may never end, so they are not read.
   std::error_code code;
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     return Error{ErrorCode::parse, "not a regular file, so no picture", path.string(), {}};

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// RGB of an image with 3 or 4 channels, into memory that is kept.
+/// Copies the RGB of an image with 3 or 4 channels into `rgb`, whose memory is reused.
 void drop_alpha(const Image& from, Image& rgb) {
   rgb.width = from.width;
   rgb.height = from.height;

@@ -14,18 +14,19 @@
 
 namespace tumble {
 
-/// What became of one submitted picture.
+/// The outcome of one submitted picture.
 struct WrittenImage {
   uint64_t index = 0;
-  uint64_t hash = 0;     ///< image_hash of the picture
-  size_t bytes = 0;      ///< of the file
+  uint64_t hash = 0;     ///< image_hash() of the picture
+  size_t bytes = 0;      ///< size of the file
   double seconds = 0;    ///< encoding and writing [s]
-  bool uniform = false;  ///< one colour only: what a broken driver draws
+  bool uniform = false;  ///< a single colour, as broken drivers draw
 };
 
-/// Encodes and writes pictures on one thread of its own, behind a bounded queue: take_buffer()
-/// waits while all buffers are under way. Files appear whole or not at all. After the first
-/// failure the rest is dropped and status() says why. With a video each picture also goes to that.
+/// Encodes and writes pictures on a thread of its own, with a bounded queue: take_buffer() waits
+/// while all buffers are in use. Files appear whole or not at all. After the first failure the
+/// other pictures are dropped, and status() gives the reason. If there is a video, each picture is
+/// also added to it.
 class PngWriter {
  public:
   explicit PngWriter(size_t buffers = 3, std::unique_ptr<VideoPipe> video = nullptr);
@@ -33,11 +34,12 @@ class PngWriter {
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 
-  /// An image whose memory is recycled; waits until one is free.
+  /// An image whose memory is reused; waits until one is free.
   Image take_buffer();
-  /// Hands a taken image over; alpha is dropped. Without a file it is for the video alone.
+  /// Queues a taken image; its alpha is dropped. With an empty file name it is only added to the
+  /// video.
   void submit(Image image, std::filesystem::path file, uint64_t index);
-  /// Waits until everything submitted is on disk, or has failed; ends the video.
+  /// Waits until everything submitted has been written or has failed; completes the video.
   Status finish();
   Status status() const;
   /// What was written since the last call, in order.

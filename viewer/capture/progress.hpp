@@ -5,18 +5,18 @@
 
 namespace tumble {
 
-/// Progress on stderr: one line that is rewritten on a terminal, else a plain line every few
-/// seconds, with rate and time left.
+/// Progress on stderr with rate and remaining time: on a terminal a line that is rewritten,
+/// otherwise a new line every few seconds.
 class Progress {
  public:
-  /// `first`: already done before.
+  /// `first`: the number already done before.
   Progress(uint64_t total, uint64_t first);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void show(uint64_t done);
-  /// Ends the rewritten line.
+  /// Ends the line that is rewritten.
   void finish();
 
  private:
@@ -27,8 +27,8 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
-/// The same of work that knows which share of it is done: what it does, and the time left by what
-/// it took so far.
+/// The same for work that knows its completed share: prints what it does, and the remaining time
+/// estimated from the time so far.
 class WorkProgress {
  public:
   explicit WorkProgress(std::string what);
@@ -36,9 +36,9 @@ class WorkProgress {
   WorkProgress(const WorkProgress&) = delete;
   WorkProgress& operator=(const WorkProgress&) = delete;
 
-  /// `share` from 0 to 1; `more`: what else there is to say of it.
+  /// Shows the share, from 0 to 1; `more` is additional text.
   void show(double share, const std::string& more = {});
-  /// Ends the rewritten line.
+  /// Ends the line that is rewritten.
   void finish();
 
  private:

@@ -21,7 +21,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Adds the time of a scope to a sum.
+/// Adds the duration of a scope to a sum.
 struct Timed {
   explicit Timed(double& sum) : sum_(sum), start_(Clock::now()) {}
   ~Timed() { sum_ += since(start_); }
@@ -42,13 +42,14 @@ std::optional<fs::path> existing_frame(const fs::path& folder) {
   return first;
 }
 
-/// Whether the picture on disk is the one that frames.json tells of.
+/// Whether the picture on disk is the one listed in frames.json.
 bool is_whole(const fs::path& folder, const FrameRecord& frame) {
   const auto picture = read_image(folder / frame_name(frame.index));
   return picture.ok() && image_hash(*picture) == frame.image_hash;
 }
 
-/// Removes frames beyond the sequence, which would get into a video made of the folder.
+/// Removes frames after the end of the sequence, which would otherwise become part of a video made
+/// from the folder.
 void remove_frames_from(const fs::path& folder, uint64_t first) {
   std::error_code code;
   std::vector<fs::path> stale;
@@ -61,7 +62,7 @@ void remove_frames_from(const fs::path& folder, uint64_t first) {
   for (const fs::path& file : stale) fs::remove(file, code);
 }
 
-/// The end of a sequence whose world could not be brought on.
+/// The kind of end for an error of advancing the world.
 SequenceEnd end_by(const Error& error) {
   switch (error.code) {
     case ErrorCode::cancelled:
@@ -75,7 +76,7 @@ SequenceEnd end_by(const Error& error) {
   }
 }
 
-/// The run of one sequence: what the stages share.
+/// The state of one run that its stages share.
 class Run {
  public:
   Run(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options)
@@ -88,7 +89,7 @@ class Run {
   SequenceResult run(const StopSignal& stop);
 
  private:
-  using Outcome = std::optional<SequenceResult>;  ///< empty: go on
+  using Outcome = std::optional<SequenceResult>;  ///< empty: continue
 
   Outcome verify_kept(const StopSignal& stop);
   Outcome simulate_to(uint64_t tick, const StopSignal& stop);
@@ -100,12 +101,12 @@ class Run {
   SequenceScene& scene_;
   FramesFile& plan_;
   const SequenceOptions& options_;
-  std::optional<PngWriter> writer_;  ///< from run() on
+  std::optional<PngWriter> writer_;  ///< exists while run() is active
   ShapeMeshes meshes_;
   ExtractOptions extract_options_;
   Trails trails_;
-  std::shared_ptr<const Frame> from_, to_;  ///< the newest two ticks
-  std::vector<FrameRecord> submitted_;      ///< drawn, perhaps not yet on disk
+  std::shared_ptr<const Frame> from_, to_;  ///< the two newest ticks
+  std::vector<FrameRecord> submitted_;      ///< drawn, but maybe not written yet
   Clock::time_point list_saved_ = Clock::now();
   bool uniform_reported_ = false;
 };
@@ -225,7 +226,7 @@ SequenceResult Run::run(const StopSignal& stop) {
     remove_temporary_files(options_.folder);
     remove_frames_from(options_.folder, plan_.frames.size());
   }
-  // Written first, so that an unwritable folder costs no rendering.
+  // Written first, so that an unwritable folder is detected before rendering.
   if (auto listed = save_list(); !listed) return {SequenceEnd::cannot_write, listed.error()};
   for (uint64_t k = plan_.frames.size(); k < plan_.frames_wanted; ++k) {
     if (stop.requested()) {
@@ -239,7 +240,7 @@ SequenceResult Run::run(const StopSignal& stop) {
     collect_written();
     if (!writer_->status()) break;
     if (options_.progress) options_.progress(k + 1);
-    // So that even a run that is killed can be resumed.
+    // Saved regularly, so that even a run that is killed can be resumed.
     if (since(list_saved_) > 2 && !save_list()) break;
   }
   Status written = writer_->finish();
@@ -272,7 +273,8 @@ Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile
                    existing->string(), "choose another folder, or --force"};
     kept = earlier->frames;
     for (FrameRecord& frame : kept) frame.at = frame_time(frame.index, plan.fps, plan.rate);
-    // A frame that was cut short, replaced or lost is drawn again, with all after it.
+    // A frame that is truncated, replaced or missing is drawn again, and so are all frames after
+    // it.
     const auto broken = std::find_if(kept.begin(), kept.end(), [&](const FrameRecord& frame) {
       return !is_whole(options.folder, frame);
     });

@@ -16,23 +16,25 @@ class World;
 struct SequenceOptions {
   std::filesystem::path folder;  ///< of the pictures; empty: only a video
   std::filesystem::path video;   ///< of all pictures; empty: none
-  bool resume = false;           ///< go on where an earlier run of the same kind stopped
-  bool force = false;            ///< overwrite frames that exist
+  bool resume = false;           ///< continue where an earlier run of the same kind stopped
+  bool force = false;            ///< overwrite existing frames
   ExtractOptions extract;
-  double trail_seconds = 0;  ///< length of the paths behind moving bodies (Trails); 0: none [s]
+  double trail_seconds = 0;  ///< length of the trails behind moving bodies (Trails); 0: none [s]
   std::chrono::steady_clock::time_point program_start = std::chrono::steady_clock::now();
   LogSink log;
-  std::function<void(uint64_t done)> progress;  ///< after each frame handed to the encoder
+  std::function<void(uint64_t done)> progress;  ///< called after each frame passed to the encoder
 };
 
-/// What a sequence is made with; all outlive the run.
+/// The inputs of a sequence; all must outlive the run.
 struct SequenceScene {
-  World& world;                        ///< at tick 0
-  std::shared_ptr<const Frame> start;  ///< what is to be seen of it then
+  World& world;  ///< at tick 0
+  /// Frame of its first tick, with looks that may be overridden.
+  std::shared_ptr<const Frame> start;
   Renderer& renderer;
-  RenderScene look;  ///< camera, light and ground; content is filled in
+  RenderScene look;  ///< camera, light and ground; the contents are filled in
   std::function<Camera(const Frame& from, const Frame& to, double s)> camera;
-  /// Brings the world nearer to a later tick and gives its frame; called until it is there.
+  /// Advances the world towards a later tick and returns its frame; called until the tick is
+  /// reached.
   std::function<Result<std::shared_ptr<const Frame>>(World&, uint64_t tick)> advance;
 };
 
@@ -42,25 +44,25 @@ enum class SequenceEnd {
   stopped,  ///< by a signal
   cannot_write,
   cannot_draw,
-  cannot_read,  ///< what the world was to be brought on by
+  cannot_read,  ///< the data by which the world is to be advanced
   broken_down,  ///< the simulation failed
-  diverged,     ///< resumed, but the simulation is not the one that was interrupted
+  diverged,     ///< after resuming, the simulation differs from the interrupted one
 };
 
 struct SequenceResult {
   SequenceEnd end = SequenceEnd::complete;
-  Error error;  ///< unless complete or stopped
+  Error error;  ///< set unless complete or stopped
 };
 
-/// How many frames of the folder can be kept; an error when frames exist that may not be touched,
-/// or when the folder cannot be made. Changes nothing but that.
+/// The number of frames in the folder that can be kept; an error if existing frames must not be
+/// overwritten, or the folder cannot be made. Nothing but the folder is created.
 Result<uint64_t> frames_to_keep(const SequenceOptions& options, const FramesFile& plan,
                                 std::vector<FrameRecord>& kept);
 
 /// Renders frames `plan.frames.size()` to `plan.frames_wanted` - 1 into the folder, with
 /// frames.json beside them: simulation, extraction, drawing and read-back in turn, encoding on a
-/// thread of its own. Frame k is at k / fps. Stops between two frames on a signal. Whatever the
-/// end, every file is whole, and frames.json tells what is there.
+/// thread of its own. Frame k shows the state at k / fps. A signal stops it between two frames.
+/// However it ends, every file is complete, and frames.json lists the existing ones.
 SequenceResult run_sequence(SequenceScene& scene, FramesFile& plan, const SequenceOptions& options,
                             const StopSignal& stop);
 

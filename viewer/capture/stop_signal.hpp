@@ -3,10 +3,10 @@
 
 namespace tumble {
 
-/// Ctrl-C and SIGTERM as a request to stop: between two files, and within a tick of a world that
-/// stops with flag(). While one of these lives, the first
-/// signal is only noted; a second one ends the program at once, still without half a file under a
-/// final name. The earlier handling comes back at the end of its life. At most one at a time.
+/// Turns Ctrl-C and SIGTERM into a request to stop: between two files, and within a tick for a
+/// world that is given flag(). While an object of this class exists, the first signal only sets the
+/// request; a second one ends the program at once, though no incomplete file has its final name.
+/// Destruction restores the former handlers. At most one object at a time.
 class StopSignal {
  public:
   StopSignal();
@@ -14,11 +14,11 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  /// True once a signal has come.
+  /// Whether a signal has come.
   bool requested() const;
-  /// The same for what asks in the midst of its work.
+  /// The same as a flag for computations to poll.
   const StopFlag& flag() const;
-  /// 130 after Ctrl-C, 143 after SIGTERM, 0 when neither came.
+  /// 130 after Ctrl-C, 143 after SIGTERM, 0 without a signal.
   int exit_code() const;
 };
 

@@ -22,7 +22,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-/// Video players want even sizes, and colours of which the hue has half the resolution.
+/// Video players need even sizes, because chroma has half the resolution.
 constexpr const char* even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
 
 std::vector<std::string> command_line(const std::string& program, const fs::path& file, int width,
@@ -63,7 +63,7 @@ int start_process(const std::vector<std::string>& words, int input, int complain
   posix_spawn_file_actions_adddup2(&actions, input, 0);
   posix_spawn_file_actions_adddup2(&actions, complaints, 1);
   posix_spawn_file_actions_adddup2(&actions, complaints, 2);
-  // Ctrl-C at a terminal ends the program, which then ends the video as it should be ended.
+  // Ctrl-C at a terminal must not end ffmpeg: our program ends the video properly.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -110,7 +110,8 @@ Result<std::unique_ptr<VideoPipe>> VideoPipe::start(const fs::path& file, int wi
       file.parent_path() / ("." + file.stem().string() + ".part" + file.extension().string());
   out->width_ = width;
   out->height_ = height;
-  // A socket and no pipe: where ffmpeg has gone, writing is an error and no signal.
+  // A socket instead of a pipe: if ffmpeg has ended, writing returns an error instead of raising a
+  // signal.
   int ends[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return out->failure(std::strerror(errno));
@@ -140,7 +141,7 @@ int VideoPipe::wait() {
   return state;
 }
 
-/// With what ffmpeg said.
+/// An error that includes the output of ffmpeg.
 Error VideoPipe::failure(std::string what) const {
   std::string said(600, '\0');
   const ssize_t got = complaints_ >= 0 ? pread(complaints_, said.data(), said.size(), 0) : 0;
@@ -161,10 +162,11 @@ Status VideoPipe::add(const Image& rgb) {
     const ssize_t sent = send(socket_, at, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) {
-      // It may read no more and yet live: until its input ends it would wait for it, and we for it.
+      // ffmpeg may have stopped reading without ending: it waits for the end of its input, and we
+      // for its end.
       close(socket_);
       socket_ = -1;
-      (void)wait();  // then all that it had to say has been said
+      (void)wait();  // then all of its output has been read
       return failure("ffmpeg has ended early");
     }
     at += sent;

@@ -9,14 +9,14 @@
 
 namespace tumble {
 
-/// The path of a program that the shell would find; empty: it is not installed.
+/// The path of a program in PATH; empty: it is not installed.
 std::filesystem::path find_program(const std::string& name);
 
-/// Pictures handed to the program ffmpeg, which makes a video of them. The file appears under its
-/// name with finish(), whole or not at all; without that nothing stays.
+/// Passes pictures to the program ffmpeg, which makes a video of them. The file appears with
+/// finish(), whole or not at all; otherwise nothing is left.
 class VideoPipe {
  public:
-  /// Starts ffmpeg. The kind of video follows the ending: .mp4, .mkv, .webm, .mov, .gif, ...
+  /// Starts ffmpeg. The format follows from the file's ending: .mp4, .mkv, .webm, .mov, .gif, ...
   /// Errors: ffmpeg is not installed (`unsupported`), the file cannot be written.
   static Result<std::unique_ptr<VideoPipe>> start(const std::filesystem::path& file, int width,
                                                   int height, Fraction fps);
@@ -24,9 +24,9 @@ class VideoPipe {
   VideoPipe(const VideoPipe&) = delete;
   VideoPipe& operator=(const VideoPipe&) = delete;
 
-  /// The next picture, of three channels and the size that was told. Waits while ffmpeg is busy.
+  /// Adds a picture with three channels and the given size. Waits while ffmpeg is busy.
   Status add(const Image& rgb);
-  /// Waits for ffmpeg to end.
+  /// Waits until ffmpeg has ended; the file then has its name.
   Status finish();
   const std::filesystem::path& file() const { return file_; }
 
@@ -37,7 +37,7 @@ class VideoPipe {
 
   std::filesystem::path file_, part_;
   int width_ = 0, height_ = 0;
-  int socket_ = -1, complaints_ = -1;  ///< to its input; what it says
+  int socket_ = -1, complaints_ = -1;  ///< to ffmpeg's input; from its stderr
   int process_ = -1;
 };
 

@@ -21,7 +21,7 @@ Made make_hidden_window() {
   return std::unique_ptr<GlContext>(std::move(*window));
 }
 
-/// "egl:3" -> 3; empty when it is not of that form.
+/// "egl:3" -> 3; empty if it does not have that form.
 std::optional<size_t> device_index(std::string_view name) {
   if (name.substr(0, 4) != "egl:") return {};
   size_t index = 0;
@@ -31,21 +31,21 @@ std::optional<size_t> device_index(std::string_view name) {
   return index;
 }
 
-/// "egl:nvidia" -> "nvidia"; empty when it is not of that form.
+/// "egl:nvidia" -> "nvidia"; empty if it does not have that form.
 std::string_view device_word(std::string_view name) {
   const bool by_word = name.substr(0, 4) == "egl:" && !device_index(name);
   return by_word ? name.substr(4) : std::string_view{};
 }
 
-/// Part of a text, whatever the case of its letters.
+/// Whether a text contains a word, ignoring case.
 bool mentions(std::string_view text, std::string_view word) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
   return std::search(text.begin(), text.end(), word.begin(), word.end(),
                      [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
 }
 
-/// The first EGL device whose file, vendor or renderer contains the word. Renderers are known only
-/// by opening the devices, one after the other.
+/// The first EGL device whose file, vendor or renderer contains the word. The renderer is only
+/// known after opening a device, so they are opened in turn.
 Made make_named_device(std::string_view word, std::vector<ContextAttempt>& attempts) {
   const auto devices = egl_devices();
   if (!devices) return devices.error();
@@ -65,7 +65,7 @@ Made make_named_device(std::string_view word, std::vector<ContextAttempt>& attem
                "there are " + seen};
 }
 
-/// The backends to try for a name, in order; fails when EGL is asked for and has no device.
+/// The backends to try for a name, in order; fails if EGL is requested and has no device.
 std::vector<std::string> candidates(std::string_view name, std::vector<ContextAttempt>& attempts) {
   if (name != "auto" && name != "egl") return {std::string(name)};
   std::vector<std::string> out;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned longest_probe_seconds = 20;
 
-// A report crosses the pipe as its strings, each ended by a zero byte.
+// Entries are sent through the pipe as their strings, each terminated by a zero byte.
 std::string pack(const DoctorEntry& e) {
   std::string out;
   for (const std::string& s : {std::string(e.ok ? "1" : "0"), e.detail, e.renderer, e.version,
@@ -98,7 +98,7 @@ DoctorEntry examine(const std::string& name) {
     close(ends[0]);
     alarm(longest_probe_seconds);
     write_all(ends[1], pack(probe_context(name)));
-    _exit(0);  // without exit handlers: drivers' own may hang or crash
+    _exit(0);  // without exit handlers, since those of drivers may hang or crash
   }
   close(ends[1]);
   const std::string bytes = read_all(ends[0]);
@@ -110,7 +110,7 @@ DoctorEntry examine(const std::string& name) {
   return entry;
 }
 
-/// The devices that EGL lists, asked in a child too; none when it cannot.
+/// Number of EGL devices, queried in a child process too; 0 if that fails.
 size_t count_egl_devices(Error& error) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return 0;

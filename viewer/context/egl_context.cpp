@@ -35,8 +35,8 @@ bool has_word(const char* list, const char* word) {
   return false;
 }
 
-/// What a person can do about EGL that answers nothing useful. Variables that are known to break it
-/// are named first, as they are quickest to check.
+/// What to do if EGL offers nothing usable. Environment variables known to break it are named
+/// first, since they are quickest to check.
 std::string driver_cure() {
   std::string cure;
   for (const char* name : {"LIBGL_DRIVERS_PATH", "__EGL_VENDOR_LIBRARY_DIRS",
@@ -103,7 +103,7 @@ class EglContext final : public GlContext {
  public:
   EglContext(Egl egl, EGLDisplay display, ContextInfo info)
       : egl_(std::move(egl)), display_(display), info_(std::move(info)) {}
-  // The display stays initialised: it is shared by every context of the process.
+  // The display stays initialised, because all contexts of the process share it.
   ~EglContext() override {
     if (context_ == EGL_NO_CONTEXT) return;
     release();
@@ -140,7 +140,7 @@ class EglContext final : public GlContext {
     return {};
   }
   void release() override {
-    egl_.bind_api(EGL_OPENGL_API);  // which context is released depends on it, per thread
+    egl_.bind_api(EGL_OPENGL_API);  // the API bound to the thread decides which context is released
     egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   Function get_proc_address(const char* name) const override {

@@ -9,18 +9,18 @@
 
 namespace tumble {
 
-/// Which implementation a context runs on.
+/// The implementation on which a context runs.
 struct ContextInfo {
   std::string name;      ///< as --context takes it: "egl:0", "surfaceless", "osmesa", "window"
-  std::string detail;    ///< device file or extension, when known: "/dev/dri/renderD128"
+  std::string detail;    ///< device file or extension, if known: "/dev/dri/renderD128"
   std::string renderer;  ///< GL_RENDERER
   std::string vendor;
   std::string version;  ///< GL_VERSION
   bool software = false;
 };
 
-/// An OpenGL 3.3 core context, current on one thread at a time. Everything is drawn into our own
-/// framebuffers; only a window has one of its own.
+/// An OpenGL 3.3 core context, current on at most one thread at a time. Everything is drawn into
+/// our own framebuffers; only a window also has a framebuffer of its own.
 class GlContext {
  public:
   using Function = void (*)();
@@ -31,15 +31,15 @@ class GlContext {
   virtual Status make_current() = 0;
   /// Unbinds it, so that another thread may take it.
   virtual void release() = 0;
-  /// The GL function of this name, or null.
+  /// Address of the GL function with this name, or null.
   virtual Function get_proc_address(const char* name) const = 0;
 };
 
-/// One backend that was tried, and how it went.
+/// An attempt with one backend, and its outcome.
 struct ContextAttempt {
   std::string name;
   bool ok = false;
-  Error error;  ///< when not ok
+  Error error;  ///< if not ok
 };
 
 struct ContextChoice {
@@ -49,9 +49,9 @@ struct ContextChoice {
 
 /// Makes a context by name: `auto` (each EGL device, surfaceless, OSMesa, in that order), `egl`
 /// (first EGL device that works), `egl:N`, `egl:NAME` (first EGL device whose file, vendor or
-/// renderer contains NAME in any case, see `tumble doctor`), `surfaceless`, `osmesa`, `window` (a
-/// hidden one). What was chosen, and why earlier ones failed, goes to `log`. The error of a failure
-/// lists every attempt with its cause and cure.
+/// renderer contains NAME, ignoring case; see `tumble doctor`), `surfaceless`, `osmesa`, `window`
+/// (a hidden one). The choice, and why earlier attempts failed, are logged. The error lists every
+/// attempt with its cause and cure.
 Result<ContextChoice> create_context(std::string_view name, const LogSink& log = {});
 
 /// Names that create_context understands, for help and messages.

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-// The few declarations of GL/osmesa.h that are used: its package is not needed to build.
+// The declarations of GL/osmesa.h that are used, so that its package is not needed to build.
 constexpr int osmesa_format = 0x22, osmesa_profile = 0x33, osmesa_core_profile = 0x34,
               osmesa_major = 0x36, osmesa_minor = 0x37, osmesa_depth_bits = 0x30;
 constexpr int gl_rgba = 0x1908;
@@ -67,7 +67,7 @@ class OsMesaContext final : public GlContext {
   }
 
  private:
-  static constexpr int side = 16;  // OSMesa wants a picture of its own; nothing is drawn into it
+  static constexpr int side = 16;  // OSMesa requires an image buffer; nothing is drawn into it
   OsMesa osmesa_;
   OsMesa::Context context_ = nullptr;
   std::array<uint32_t, size_t(side) * side> dummy_{};

@@ -19,7 +19,8 @@ out vec4 colour;
 void main() { colour = gl_FragCoord.x < 8.0 ? vec4(1.0, 0.0, 0.0, 1.0) : vec4(0.0, 0.0, 1.0, 1.0); }
 )";
 
-/// Left half red, right half blue, through multisampling where there is any.
+/// Draws the left half red and the right half blue, multisampled if supported, and checks the
+/// pixels.
 Status draw_and_look(Device& device) {
   PipelineDesc desc;
   desc.name = "probe";

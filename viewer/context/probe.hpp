@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Makes the context of this name in this process, draws a triangle through it into a framebuffer
-/// of our own, and looks at the pixels. What a driver does wrong it does here.
+/// Makes the context of this name in this process, draws into a framebuffer of our own, and checks
+/// the pixels. A crash or hang of the driver happens in this process.
 DoctorEntry probe_context(const std::string& name);
 
 }  // namespace tumble

@@ -5,14 +5,14 @@
 
 namespace tumble {
 
-/// A library opened at run time with its names kept to itself, so that two implementations of
-/// OpenGL can live in one process. Never closed: drivers leave threads and exit handlers behind.
+/// A library loaded at run time with local symbols, so that two implementations of OpenGL can
+/// coexist in one process. Never closed, because drivers leave threads and exit handlers behind.
 class SharedLibrary {
  public:
-  /// `cure` goes into the error when the file cannot be opened.
+  /// `cure` is part of the error if the library cannot be loaded.
   static Result<SharedLibrary> open(const char* file, const char* cure);
 
-  /// Sets `function` to the library's symbol of that name; false when it has none.
+  /// Sets `function` to the library's symbol of that name; false if there is none.
   template <class F>
   bool find(const char* name, F*& function) const {
     function = reinterpret_cast<F*>(symbol(name));

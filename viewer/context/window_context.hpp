@@ -12,17 +12,17 @@ struct WindowOptions {
   bool vsync = true;
 };
 
-/// A desktop window with its context. One thread, the main one.
+/// A desktop window with its context. To be used on the main thread only.
 class WindowContext : public GlContext {
  public:
   /// The GLFW window, for callbacks and input.
   virtual GLFWwindow* window() const = 0;
-  /// Shows what was presented (Device::present) since the last call.
+  /// Swaps the buffers: shows what was presented (Device::present) since the last call.
   virtual void swap() = 0;
 };
 
-/// Opens a window, its context current. Fails without a display, or when the program was built
-/// with TUMBLE_WINDOW=OFF.
+/// Opens a window and makes its context current. Fails without a display, or if the program was
+/// built with TUMBLE_WINDOW=OFF.
 Result<std::unique_ptr<WindowContext>> make_window_context(const WindowOptions& options);
 
 }  // namespace tumble

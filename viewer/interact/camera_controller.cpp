@@ -9,16 +9,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double turn_per_pixel = 2 * pi / 1200;
-constexpr double pitch_limit = 89.0 / 180 * pi;  // at the pole the yaw would be undefined
+constexpr double pitch_limit = 89.0 / 180 * pi;  // at the pole the yaw is undefined
 constexpr double least_distance = 0.02, largest_distance = 5000;
 constexpr double zoom_per_notch = 0.88;
-constexpr double follow_rate = 18;  // [1/s] 97 % after 0.2 s
+constexpr double follow_rate = 18;  // covers 97 % of the way in 0.2 s [1/s]
 
 double half_tan(double fov_deg) {
   return std::tan(0.5 * fov_deg * pi / 180);
 }
 
-/// The angle nearest to `to` that shows the same direction as `from`.
+/// `from` plus a multiple of 2 pi, nearest to `to` [rad].
 double unwrap(double from, double to) {
   return from + 2 * pi * std::round((to - from) / (2 * pi));
 }
@@ -60,10 +60,10 @@ void CameraController::set_floor(std::optional<double> height) {
   if (height && goal_.pivot.y() + goal_.distance * to_eye(goal_).y() < *height) floor_.reset();
 }
 
-/// Turns the eye up about the pivot until it is a little above the floor.
+/// Raises the pitch until the eye is slightly above the floor.
 void CameraController::stay_above_floor() {
   if (!floor_) return;
-  constexpr double clearance = 0.01;  // per distance
+  constexpr double clearance = 0.01;  // over the distance to the pivot [-]
   double least = clearance + (*floor_ - goal_.pivot.y()) / goal_.distance;
   if (least > std::sin(pitch_limit)) {
     goal_.pivot.y() = *floor_;
@@ -113,7 +113,7 @@ void CameraController::fly(const Vec3& move, double dt, bool fast) {
   goal_.pivot +=
       speed * dt * (move.x() * right + move.y() * Vec3::UnitY() - move.z() * to_eye(goal_));
   if (!floor_) return;
-  // The eye glides along the floor, and looks where it looked.
+  // The eye slides along the floor, and its direction of view stays.
   const double under = *floor_ - (goal_.pivot.y() + goal_.distance * to_eye(goal_).y());
   goal_.pivot.y() += std::max(under, 0.0);
 }
@@ -153,7 +153,8 @@ void CameraController::keep_proper() {
 
 void CameraController::update(double dt) {
   const double s = 1 - std::exp(-follow_rate * std::max(dt, 0.0));
-  // The eye is what a person sees move: follow with eye and pivot, then derive the rest.
+  // A viewer sees the motion of the eye: eye and pivot approach the goal, and the rest is derived
+  // from them.
   const Vec3 eye_now = now_.pivot + now_.distance * to_eye(now_);
   const Vec3 eye_goal = goal_.pivot + goal_.distance * to_eye(goal_);
   const bool same_pivot = (goal_.pivot - now_.pivot).norm() < 1e-9;

@@ -5,49 +5,50 @@
 
 namespace tumble {
 
-/// A camera that turns about a pivot with y up, pans, zooms and flies. Changes go to a goal that
-/// the picture's camera follows within a fifth of a second, independent of the frame rate. Lengths
+/// A camera that orbits a pivot with y up, pans, zooms and flies. Changes apply to a goal, which
+/// the drawn camera approaches within a fifth of a second, independently of the frame rate. Lengths
 /// in metres, pixels in UI units.
 class CameraController {
  public:
   CameraController() { set(Camera{}); }
 
-  /// Takes over a camera at once (a scene was loaded).
+  /// Sets the camera without a transition (for another scene).
   void set(const Camera& camera);
   const Camera& camera() const { return camera_; }
-  /// The picture is narrower than the window: it shows as much from left to right, and this many
-  /// times as much from top to bottom (see heightened()).
+  /// For a picture narrower than the window that shows the same width of the scene: the ratio of
+  /// its height of view to that of the window (see heightened()).
   void set_heightening(double ratio) { heightening_ = ratio; }
-  /// That of such a picture: rays through its pixels are this one's.
+  /// The camera of such a picture, for rays through its pixels.
   Camera seen() const { return heightened(camera_, heightening_); }
   const Vec3& pivot() const { return goal_.pivot; }
 
-  /// What a person does keeps the eye above this height [m], unless it is below already; none:
-  /// everywhere.
+  /// Sets the height [m] below which the user's changes do not move the eye, unless it is below
+  /// already; none: no limit.
   void set_floor(std::optional<double> height);
-  /// Goes to a camera, as if a person had moved there.
+  /// Moves to a camera with a transition, as if the user had moved there.
   void go_to(const Camera& camera);
 
-  /// Turns about the pivot by a drag; a full turn takes about 1200 px.
+  /// Orbits the pivot by a drag [px]; a full turn takes about 1200 px.
   void orbit(double dx, double dy);
-  /// Moves along the picture, so that the pivot's plane follows the pointer.
+  /// Pans by a drag [px], so that the plane through the pivot follows the pointer.
   void pan(double dx, double dy, double view_height);
-  /// Wheel notches, positive nearer.
+  /// Zooms by notches of the wheel; positive moves nearer.
   void zoom(double notches);
-  /// Turns about the eye by a drag.
+  /// Rotates the view about the eye by a drag [px].
   void look(double dx, double dy);
-  /// Moves the eye along the camera's right, world up and the view, in units of its own speed.
+  /// Moves the eye along the camera's right, the world's up, and the view direction, as multiples
+  /// of its speed, for `dt` [s].
   void fly(const Vec3& right_up_forward, double dt, bool fast);
-  /// Moves everything along at once, as with a body that the camera follows.
+  /// Shifts the camera without a transition, e.g. with a body that it follows [m].
   void carry(const Vec3& shift);
-  /// Makes a point the pivot and looks at it, from where the camera is.
+  /// Makes a point the pivot and looks at it from the present place.
   void focus(const Vec3& point);
   /// Shows all of `bounds` from the present direction.
   void focus(const Aabb& bounds, double aspect);
 
-  /// Lets the camera follow its goal for dt seconds.
+  /// Lets the camera approach its goal for `dt` [s].
   void update(double dt);
-  /// Jumps to the goal (tests, screenshots).
+  /// Moves the camera to its goal at once (tests, screenshots).
   void arrive();
 
  private:

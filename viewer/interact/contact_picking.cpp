@@ -7,7 +7,7 @@ namespace tumble {
 
 std::optional<ContactPick> pick_contact(const Frame& frame, const Camera& camera, double x,
                                         double y, double width, double height, double reach) {
-  // Marks closer to each other than this look like one.
+  // Marks nearer to each other than this cannot be told apart [px].
   constexpr double same_place = 1.5;
   std::optional<ContactPick> best;
   double away = reach, depth = std::numeric_limits<double>::infinity();

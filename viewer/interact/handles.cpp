@@ -14,15 +14,16 @@ namespace {
 using Part = Handles::Part;
 using View = Handles::View;
 
-constexpr double arm_pixels = 84;                         ///< of arms, and radius of rings
-constexpr double catch_pixels = 8;                        ///< a pointer so near is on the handle
-constexpr double square_begin = 0.25, square_end = 0.45;  ///< of squares, in lengths of an arm
+constexpr double arm_pixels = 84;   ///< length of arms and radius of rings
+constexpr double catch_pixels = 8;  ///< within this distance the pointer is on the handle
+/// Range of the squares, in lengths of an arm.
+constexpr double square_begin = 0.25, square_end = 0.45;
 constexpr int ring_pieces = 48;
-/// The middle of the scaling handles doubles the size on a way of so many pixels.
+/// Dragging the centre of the scaling handles by this many pixels doubles the size.
 constexpr double doubling_pixels = 120;
-/// A ray this near to lying in a plane, or along an arm, says nothing of a place there (sine).
+/// A ray whose angle to a plane, or to an arm, is below this gives no usable point (sine).
 constexpr double least_sine = 0.05;
-/// Rings seen flatter than this are turned along their tangent (sine).
+/// Rings seen at a flatter angle than this are rotated by dragging along their tangent (sine).
 constexpr double flat_ring = 0.2;
 
 int axis_of(Part part) {
@@ -48,7 +49,7 @@ Vec3 looking_along(const Camera& camera) {
   return (camera.target - camera.eye).normalized();
 }
 
-/// Length at the frame's distance that is `pixels` high in the picture [m].
+/// The length that appears `pixels` high at the frame's distance [m].
 double length_of_pixels(const View& view, const Vec3& at, double pixels) {
   const double depth = std::max((at - view.camera.eye).dot(looking_along(view.camera)), 1e-3);
   const double half = std::tan(0.5 * view.camera.fov_deg * std::numbers::pi / 180);
@@ -61,15 +62,16 @@ std::optional<Vec3> on_plane(const Ray& ray, const Vec3& point, const Vec3& norm
   return ray.at((point - ray.origin).dot(normal) / ray.direction.dot(normal));
 }
 
-/// The place on the line through `point` along the unit `axis` nearest to the ray, from `point`
-/// [m].
+/// The point nearest to the ray on the line through `point` along the unit vector `axis`, as a
+/// distance from `point` [m].
 std::optional<double> along_line(const Ray& ray, const Vec3& point, const Vec3& axis) {
   const Vec3 d = ray.direction.normalized(), across = d.cross(axis);
   if (across.norm() < least_sine) return std::nullopt;
   return (ray.origin - point).cross(d).dot(axis.cross(d)) / across.squaredNorm();
 }
 
-/// Distance of a point of the picture from the projected segment [px]; far where it is behind.
+/// Distance of a point of the picture from a projected segment [px]; very large if that is behind
+/// the eye.
 double pixels_from(const View& view, const Vec3& a, const Vec3& b, double x, double y) {
   const Vec3 p = project(view.camera, a, view.width, view.height);
   const Vec3 q = project(view.camera, b, view.width, view.height);
@@ -126,7 +128,7 @@ Part Handles::hit(HandleKind kind, const Pose& frame, const View& view, double x
                                 ring_point(frame, axis, arm, i + 1), x, y));
       continue;
     }
-    // Not from the middle on: that is the middle's.
+    // An arm does not start at the centre, which is a handle of its own.
     offer(part, pixels_from(view, frame.point(0.15 * arm * unit(axis)),
                             frame.point(arm * unit(axis)), x, y));
     if (kind != HandleKind::move) continue;
@@ -218,7 +220,8 @@ std::optional<Displacement> Handles::move(const View& view, double x, double y, 
   return Displacement{.pivot = frame_.x, .shift = shift};
 }
 
-/// Seen from the side a ring gives no angle: there the way along its tangent is rolled off.
+/// A ring seen from the side gives no angle: there the drag along its tangent is converted to one,
+/// as if rolling.
 std::optional<Displacement> Handles::turn(const View& view, double x, double y, bool snap) const {
   const Ray ray = pixel_ray(view.camera, x, y, view.width, view.height);
   const Vec3 axis = frame_.direction(unit(axis_of(part_)));
@@ -239,7 +242,7 @@ std::optional<Displacement> Handles::turn(const View& view, double x, double y, 
 }
 
 std::optional<Displacement> Handles::scale(const View& view, double x, double y, bool snap) const {
-  constexpr double least = 0.01;  // of the size at the beginning
+  constexpr double least = 0.01;  // of the initial size
   Displacement out{.pivot = frame_.x};
   if (part_ == Part::middle) {
     out.scale = std::exp2(((x - x_) - (y - y_)) / doubling_pixels);
@@ -285,7 +288,7 @@ void Handles::draw(HandleKind kind, const Pose& frame, Part lit, const View& vie
       point(tip, colour, 13);
       continue;
     }
-    // An arrow of four strokes, which has a tip from every side.
+    // An arrowhead of four strokes, visible from every side.
     for (const double side : {-0.06, 0.06})
       for (const int across : {1, 2})
         line(tip, frame.point(arm * (0.84 * unit(axis) + side * unit((axis + across) % 3))), colour,

@@ -70,7 +70,7 @@ void HeldInput::apply(const InputEvent& event) {
   } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
     if (key->key < Key::count) keys[size_t(key->key)] = key->down;
   } else if (const auto* focus = std::get_if<FocusChanged>(&event); focus && !focus->focused) {
-    // Releases that happen while another window has the focus never arrive.
+    // Releases that happen while another window has the focus are never reported.
     std::fill(std::begin(keys), std::end(keys), false);
     std::fill(std::begin(buttons), std::end(buttons), false);
   }

@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-// What the person did, free of any window library: the same events come from GLFW, from a script
-// and from tests.
+// Input events, independent of any window library: they come from GLFW, from a script or from
+// tests.
 
 /// Physical keys that Tumble knows. Letters and digits have the values of their ASCII characters.
 enum class Key : uint16_t {
@@ -79,7 +79,7 @@ struct PointerPressed {
   bool down = true;
 };
 struct WheelTurned {
-  double dx = 0, dy = 0;  ///< notches; dy > 0 is away from the person
+  double dx = 0, dy = 0;  ///< notches; dy > 0 is away from the user
 };
 struct KeyPressed {
   Key key = Key::none;
@@ -104,7 +104,7 @@ std::string key_name(Key key);
 /// The key of that name (case ignored), or Key::none.
 Key key_from_name(std::string_view name);
 
-/// Which keys and buttons are held, from the events so far.
+/// The keys and buttons that are held after the events so far.
 struct HeldInput {
   bool keys[size_t(Key::count)] = {};
   bool buttons[3] = {};

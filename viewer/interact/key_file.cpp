@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What the file wants of one action.
+/// The keys that the file assigns to one action.
 struct Wish {
   Action action;
   std::vector<Chord> chords;  ///< none: no key
@@ -28,7 +28,7 @@ std::optional<Wish> read_wish(const std::string& name, const Json& value,
                               std::vector<std::string>& faults) {
   const auto action = action_from_name(name);
   if (!action) {
-    // All that there are would fill the window.
+    // A list of all actions would fill the window.
     const std::string words = unknown_name("action", name, all_names());
     faults.push_back(name + ": " + words.substr(0, words.find(" Known:")) +
                      " (`tumble keys` lists them)");
@@ -67,7 +67,8 @@ const Binding* owner_of(const std::vector<Binding>& all, const Chord& chord) {
   return nullptr;
 }
 
-/// What wished for keys and got none keeps its usual ones, where nobody else has them now.
+/// An action whose requested keys were not available keeps its default keys, as far as no other
+/// action has them now.
 void keep_usual(const std::vector<Wish>& wishes, const std::vector<Action>& granted,
                 std::vector<Binding>& all) {
   for (const Wish& wish : wishes) {
@@ -78,7 +79,7 @@ void keep_usual(const std::vector<Wish>& wishes, const std::vector<Action>& gran
   }
 }
 
-/// Puts wishes into the table; a chord that another wish has already is left out.
+/// Applies the requests to the table; a chord that another request already has is left out.
 void grant(const std::vector<Wish>& wishes, std::vector<Binding>& all,
            std::vector<std::string>& faults) {
   for (const Wish& wish : wishes)
@@ -139,7 +140,7 @@ std::vector<Binding> read_key_file(std::string_view text, std::vector<std::strin
   try {
     json = Json::parse(text, nullptr, true, true);
   } catch (const Json::parse_error& e) {
-    // The byte that it stopped at, counted from 1.
+    // The byte at which parsing stopped, counted from 1.
     const std::string_view read =
         text.substr(0, std::min(e.byte > 0 ? e.byte - 1 : 0, text.size()));
     const auto line = std::ranges::count(read, '\n') + 1;
@@ -161,7 +162,7 @@ std::vector<Binding> read_key_file(std::string_view text, std::vector<std::strin
   for (const auto& [name, value] : json.items())
     if (auto wish = read_wish(name, value, faults)) wishes.push_back(*std::move(wish));
   grant(wishes, all, faults);
-  // In the order of the usual ones, for the help.
+  // Sorted like the default bindings, for the help.
   std::ranges::stable_sort(all, {}, [](const Binding& b) {
     return std::ranges::find(usual_bindings(), b.action, &Binding::action) -
            usual_bindings().begin();

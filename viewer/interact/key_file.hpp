@@ -3,11 +3,11 @@
 
 namespace tumble {
 
-/// The usual bindings with those of a file of bindings in the place of their actions' (see
-/// take_bindings()). What is wrong is left out, with a line in `faults`.
+/// The default bindings, in which those of the actions named in a key file are replaced (see
+/// take_bindings()). Invalid entries are left out, with a line in `faults`.
 std::vector<Binding> read_key_file(std::string_view json, std::vector<std::string>& faults);
 
-/// "Ctrl+Shift+Z" as key and modifiers.
+/// A key with modifiers, such as "Ctrl+Shift+Z".
 struct Chord {
   Key key = Key::none;
   uint8_t mods = 0;

@@ -9,8 +9,8 @@
 
 namespace tumble {
 
-/// Everything a key can ask for. Adding one: a line here, its name and its keys in key_map.cpp, its
-/// effect in viewer/app/window/actions.cpp.
+/// All actions of keys. To add one: a line here, its name and its keys in key_map.cpp, its effect
+/// in viewer/app/window/actions.cpp.
 enum class Action : uint8_t {
   toggle_pause,
   step_forward,
@@ -102,40 +102,40 @@ enum class Action : uint8_t {
   overlay_none,
 };
 constexpr size_t action_count = size_t(Action::overlay_none) + 1;
-/// "toggle_pause": as the file of bindings and `tumble keys` name it.
+/// The name in key files and `tumble keys`: "toggle_pause".
 std::string_view action_name(Action action);
 std::optional<Action> action_from_name(std::string_view name);
 
-/// One line of the binding table: the one source of what keys do, of the help panel and of the
-/// shortcuts printed on buttons.
+/// One entry of the table of bindings, from which key handling, the help panel and the shortcuts
+/// shown on buttons are all derived.
 struct Binding {
   Action action;
   Key key;
-  uint8_t mods;  ///< exactly these are held
+  uint8_t mods;  ///< exactly these modifiers are held
   std::string_view group;
-  std::string_view doc;  ///< what it does, for people
-  bool repeats = false;  ///< holding the key goes on
+  std::string_view doc;  ///< description of the action
+  bool repeats = false;  ///< holding the key repeats the action
 };
 std::span<const Binding> all_bindings();
-/// Those that Tumble comes with.
+/// The default bindings.
 std::span<const Binding> usual_bindings();
 
-/// Takes the bindings of a text such as `{"toggle_pause": "F2", "restart": ["R", "Home"], "quit":
-/// ""}`, in place of the usual ones of these actions; the others stay. What is wrong is left out
-/// and said, a line each: with path, cause and cure. Before anything reads all_bindings(): the
-/// table is the program's.
+/// Replaces default bindings by those of a text such as `{"toggle_pause": "F2", "restart": ["R",
+/// "Home"], "quit": ""}`; actions not named keep theirs. Invalid entries are left out and reported,
+/// one line each, with path, cause and cure. Must be called before all_bindings() is read
+/// elsewhere: the table is global.
 std::vector<std::string> take_bindings(std::string_view json);
-/// Back to the usual ones.
+/// Restores the default bindings.
 void take_usual_bindings();
 
-/// What the pointer does; for the help only, the behaviour is PointerTool's.
+/// Description of a pointer gesture for the help; PointerTool implements it.
 struct PointerBinding {
   std::string_view gesture;
   std::string_view doc;
 };
 std::span<const PointerBinding> all_pointer_bindings();
 
-/// Whether a key is held that belongs to this action, whatever modifiers are held beside it.
+/// Whether a key bound to this action is held, regardless of modifiers.
 bool is_held(Action action, const HeldInput& held);
 /// Whether holding this key moves a flying camera.
 bool is_fly_key(Key key);
@@ -143,7 +143,7 @@ bool is_fly_key(Key key);
 std::optional<Action> find_action(Key key, uint8_t mods, bool repeat = false);
 /// "Ctrl+F12", "Shift+.", "?".
 std::string chord_text(const Binding& binding);
-/// The first chord of an action, or "" when it has none.
+/// The first chord of an action; "" if it has none.
 std::string shortcut_of(Action action);
 
 }  // namespace tumble

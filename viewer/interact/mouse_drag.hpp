@@ -6,27 +6,27 @@
 
 namespace tumble {
 
-/// A body held by the pointer: where it was taken, how deep in the picture the pull acts, and the
-/// definition of the force that pulls. Knows nothing of worlds; whoever owns one turns `def()` into
-/// a force.
+/// A body held by the pointer: the point where it was grabbed, the depth at which the target moves,
+/// and the definition of the force that pulls. Independent of worlds; the owner creates a force
+/// from `def()`.
 class MouseDrag {
  public:
-  /// Takes hold of a dynamic body; the pull starts at the point that was hit.
+  /// Grabs a dynamic body at the point that was hit.
   void begin(const Pick& pick, const Ray& ray, const Camera& camera);
   void end() { held_.reset(); }
   bool active() const { return held_.has_value(); }
   BodyId body() const { return held_ ? held_->body : BodyId{}; }
 
-  /// Moves the target along the plane through it that faces the camera.
+  /// Moves the target in the plane through it that is parallel to the picture.
   void move(const Ray& ray, const Camera& camera);
-  /// Wheel notches: positive pulls nearer to the eye.
+  /// Changes the depth by notches of the wheel: positive pulls nearer to the eye.
   void pull(double notches);
 
   const Vec3& target() const { return target_; }
   MouseSpringDef def() const;
 
-  /// Angular velocity that a pointer movement of (dx, dy) px within dt seconds gives the body,
-  /// about the camera's axes, bounded by one turn a second.
+  /// Angular velocity about the camera's axes that corresponds to a pointer movement of (dx, dy) px
+  /// within dt seconds, bounded by one turn per second.
   static Vec3 turning(double dx, double dy, double dt, const Camera& camera);
 
  private:
@@ -36,7 +36,7 @@ class MouseDrag {
   };
   std::optional<Held> held_;
   Ray ray_;
-  double depth_ = 1;  ///< of the target along the camera's view [m]
+  double depth_ = 1;  ///< of the target along the view direction [m]
   double view_cosine_ = 1;
   Vec3 target_ = Vec3::Zero();
 };

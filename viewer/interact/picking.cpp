@@ -41,7 +41,7 @@ std::optional<Pick> Picker::operator()(const std::shared_ptr<const Frame>& from,
   const Frame& frame = scene_->frame();
   QueryFilter visible;
   visible.accept = [&](const QueryTarget& t) { return frame.info(t.body.index).look.visible; };
-  // A body around the eye is not what the pointer is on.
+  // A body that contains the eye cannot be picked.
   const auto hit = scene_->ray({.origin = ray.origin,
                                 .direction = ray.direction,
                                 .max_distance = max_distance,
@@ -76,7 +76,7 @@ std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray
       const double radius = part.shape->bounding_radius();
       if (std::isfinite(radius) && origin.cross(direction).norm() > radius) return;
       const std::optional<RayHit> hit = part.shape->ray_cast(origin, direction, nearest);
-      // A body around the eye is not what the pointer is on.
+      // A body that contains the eye cannot be picked.
       if (!hit || hit->t >= nearest || !(hit->t > 0)) return;
       nearest = hit->t;
       const Vec3 x = ray.origin + hit->t * ray.direction;

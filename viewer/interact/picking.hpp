@@ -10,7 +10,7 @@ namespace tumble {
 
 class QueryScene;
 
-/// What the pointer is on.
+/// The result of picking.
 struct Pick {
   BodyId body;
   uint32_t slot = 0;
@@ -22,15 +22,15 @@ struct Pick {
   BodyType type = BodyType::fixed;
 };
 
-/// The nearest visible body along a ray, in the picture between two frames of one world (s in
-/// [0, 1]); bodies that the later frame has lost, and those ignored, are not hit. Reads frames
-/// only, so that it may run on any thread.
+/// The nearest visible body along a ray, in the picture between two frames of one world (s in [0,
+/// 1]). Bodies missing in the later frame, and those in the ignore list, are not hit. Only reads
+/// frames, so it may be called on any thread.
 std::optional<Pick> pick(const Frame& from, const Frame& to, double s, const Ray& ray,
                          double max_distance = 1e4, std::span<const BodyId> ignored = {});
 
-/// Picks in picture after picture, with the same answers as pick(). While bodies move every picture
-/// differs, and looking at all of them once is the fastest; where the picture stands still (paused,
-/// asleep) it asks a tree from the second time on.
+/// Picks repeatedly, with the same results as pick(). While bodies move, testing all of them once
+/// per picture is fastest; for still pictures (paused, asleep) it uses a tree from the second query
+/// on.
 class Picker {
  public:
   std::optional<Pick> operator()(const std::shared_ptr<const Frame>& from,
@@ -39,13 +39,13 @@ class Picker {
 
  private:
   std::shared_ptr<const QueryScene> scene_;
-  std::shared_ptr<const Frame> seen_;  ///< of the last picture
+  std::shared_ptr<const Frame> seen_;  ///< frame of the last query
 };
 
 /// The slot of a body in a frame, if it is alive there.
 std::optional<uint32_t> find_slot(const Frame& frame, BodyId id);
 
-/// World bounds of a body, infinite shapes (half-spaces) left out; empty when nothing is left.
+/// World bounds of a body without unbounded shapes (half spaces); empty if nothing remains.
 Aabb body_bounds(const Frame& frame, uint32_t slot);
 
 }  // namespace tumble

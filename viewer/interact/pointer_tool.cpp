@@ -7,10 +7,10 @@
 namespace tumble {
 namespace {
 
-constexpr double drag_threshold = 4;  // [px] less is a click by an unsteady hand
+constexpr double drag_threshold = 4;  // [px] a smaller movement is a click
 
-/// Whether a press is early enough to be the second of a double click. On a machine that draws
-/// slowly two fast clicks may lie a picture apart.
+/// Whether a press is early enough to be the second of a double click. If drawing is slow, two fast
+/// clicks may be in consecutive pictures.
 bool soon(double seconds, int pictures) {
   constexpr double double_click_seconds = 0.35;
   return seconds < double_click_seconds || pictures <= 1;
@@ -85,7 +85,7 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     out.arrange_began = true;
     out.press_x = press_x_;
     out.press_y = press_y_;
-  } else if (held.mods() & Mods::alt) {  // a touchpad has no middle button
+  } else if (held.mods() & Mods::alt) {  // for touchpads without a middle button
     mode_ = Mode::pan;
   } else if (held.key(Key::shift) && !view.arranged) {
     out.shots.push_back(ray_at(held, view, camera));
@@ -100,7 +100,7 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
 
 void PointerTool::release(PointerButton button, CameraController& camera, PointerEffects& out) {
   if (button == PointerButton::left && mode_ == Mode::pressed) {
-    // A body that moves may have left the place between the clicks.
+    // A moving body may have left the place between the clicks.
     if (second_ && !pressed_on_) pressed_on_ = clicked_on_;
     out.selected = pressed_on_;
     out.more = more_;
@@ -186,7 +186,7 @@ void PointerTool::moved(double dx, double dy, const HeldInput& held, double dt, 
 }
 
 void PointerTool::fly(const HeldInput& held, double dt, CameraController& camera) const {
-  if (held.mods() & ~Mods::shift) return;  // a command
+  if (held.mods() & ~Mods::shift) return;  // it is a shortcut
   const auto axis = [&](Action plus, Action minus) {
     return double(is_held(plus, held)) - double(is_held(minus, held));
   };

@@ -26,7 +26,7 @@ std::optional<ScriptedInput::Point> as_point(const std::string& text) {
   return ScriptedInput::Point{x, y};
 }
 
-/// "Ctrl+Shift+." to its key and modifiers.
+/// Parses "Ctrl+Shift+." as key and modifiers.
 std::pair<Key, uint8_t> parse_chord(std::string_view text) {
   uint8_t mods = Mods::none;
   for (;;) {

@@ -31,23 +31,23 @@ class ScriptedInput {
   struct Point {
     double x = 0, y = 0;
   };
-  /// Where a widget or body is in this frame's picture, if it is anywhere.
+  /// Position of a widget or body in this frame's picture; empty if it is not visible.
   using Locate = std::function<std::optional<Point>(std::string_view place)>;
 
-  /// Fails with the line and what is wrong there.
+  /// The error names the line and what is wrong there.
   static Result<ScriptedInput> parse(std::string_view text);
 
   /// Appends a command given as a line of the script.
   Status add(std::string_view line);
   bool done() const { return steps_.empty(); }
-  /// The events of the next frame. A place that is nowhere for 200 frames ends the script with an
-  /// error.
+  /// The events of the next frame. A place that cannot be located for 200 frames ends the script
+  /// with an error.
   Result<std::vector<InputEvent>> next(const Locate& locate);
 
  private:
   struct Step {
     std::vector<InputEvent> events;
-    std::string place;         ///< a move to there comes first; empty: none
+    std::string place;         ///< place to move to first; empty: none
     bool offset_only = false;  ///< the move is (dx, dy) from the last place
     double dx = 0, dy = 0;
   };

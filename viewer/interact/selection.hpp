@@ -7,29 +7,29 @@
 
 namespace tumble {
 
-/// The bodies that a person has chosen. The one chosen last is the main one: panels show it.
+/// The selected bodies. The one selected last is the primary one, which panels show.
 class Selection {
  public:
-  /// In the order in which they were chosen.
+  /// In the order in which they were selected.
   const std::vector<BodyId>& all() const { return bodies_; }
-  /// Null when nothing is selected.
+  /// The primary body; null if nothing is selected.
   BodyId main() const { return bodies_.empty() ? BodyId{} : bodies_.back(); }
   bool empty() const { return bodies_.empty(); }
   size_t size() const { return bodies_.size(); }
   bool contains(BodyId id) const { return std::ranges::find(bodies_, id) != bodies_.end(); }
 
   void clear() { bodies_.clear(); }
-  /// This body alone; null: nothing.
+  /// Selects this body only; null: nothing.
   void set(BodyId id) {
     bodies_.clear();
     if (!id.is_null()) bodies_.push_back(id);
   }
-  /// Makes it the main one of those that are selected, and selects it before.
+  /// Adds a body to the selection and makes it the primary one.
   void add(BodyId id) {
     std::erase(bodies_, id);
     bodies_.push_back(id);
   }
-  /// Selected, or not any more.
+  /// Adds a body to the selection, or removes it.
   void toggle(BodyId id) {
     if (std::erase(bodies_, id) == 0) bodies_.push_back(id);
   }

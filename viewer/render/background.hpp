@@ -6,14 +6,15 @@
 
 namespace tumble {
 
-/// Of the grid that the colours of the sky are computed on (shaders/sky_grid.glsl).
+/// Size of the grid on which the colours of the sky are computed (shaders/sky_grid.glsl).
 constexpr uint32_t sky_columns = 24, sky_rows = 32;
 
-/// Whether the ground ends in haze, so that its rim is no edge: less than a step of 1/255 is left
-/// of it there.
+/// Whether haze hides the outer edge of the drawn ground: less than 1/255 of the ground's own
+/// colour is left there, so the edge cannot be seen.
 bool rim_is_hidden(const RenderScene& scene, const FrameSetup& setup);
 
-/// Rows of pixels from the top down to the last in which the sky may be seen past the ground.
+/// Number of pixel rows, counted from the top of the picture, in which the sky may be seen beyond
+/// the ground.
 int rows_with_sky(const RenderScene& scene, const FrameSetup& setup);
 
 }  // namespace tumble

@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-/// Coarse versions are made first, so that each finer one can point at them.
+/// Links a mesh to its coarser version and sets when that is used. Coarse versions are made first,
+/// so that each finer one can point at them.
 MeshRef with_coarser(const MeshRef& mesh, const MeshRef& coarser, float below_pixels,
                      float below_inflate = 0) {
   auto copy = std::make_shared<MeshData>(*mesh);
@@ -72,7 +73,8 @@ void quad(std::vector<uint32_t>& t, uint32_t a, uint32_t b, uint32_t c, uint32_t
   for (const uint32_t k : {a, b, c, a, c, d}) t.push_back(k);
 }
 
-/// Three vertices a corner, one per face that meets there; faces, then chamfers, then corners.
+/// Three vertices per corner, one for each adjacent face. Triangles of faces come first, then of
+/// chamfers, then of corners.
 MeshRef box(bool chamfered) {
   std::vector<Vec3f> p, n;
   const auto index = [](int sx, int sy, int sz, int axis) {
@@ -166,7 +168,8 @@ MeshRef capsule(uint32_t around, int half_rings) {
   return lathe(rings, around);
 }
 
-/// Small rounds catch the light at edges and are invisible otherwise.
+/// Radius of the edges of a box or cylinder [m]: small roundings catch the light at edges and are
+/// otherwise invisible.
 float edge_round(double smallest_half) {
   return float(std::min(0.06 * smallest_half, 0.02));
 }
@@ -185,7 +188,7 @@ MeshRef sphere_mesh() {
 
 MeshRef ball_card() {
   static const MeshRef card = [] {
-    const float s = 0.8660254f;  // circumscribes a circle of half its reach
+    const float s = 0.8660254f;  // circumscribes the circle of radius 1/2
     const MeshRef triangle = make_mesh({{0, 1, 0}, {-s, -0.5f, 0}, {s, -0.5f, 0}},
                                        std::vector<Vec3f>(3, Vec3f::UnitZ()), {0, 1, 2}, true);
     auto copy = std::make_shared<MeshData>(*triangle);

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// Pictures are compared across machines, so that the camera, too, stays clear of libm.
+// Uses the deterministic functions instead of libm, since pictures are compared across machines.
 double half_tan(double fov_deg) {
   const double half = std::clamp(fov_deg, 0.1, 175.0) * det::pi / 360;
   return det::sin(half) / det::cos(half);
@@ -35,7 +35,7 @@ ViewAxes frame_of(const Camera& c) {
 }  // namespace
 
 Camera heightened(const Camera& camera, double ratio) {
-  if (ratio == 1) return camera;  // to the bit
+  if (ratio == 1) return camera;  // exactly the same bits
   Camera out = camera;
   out.fov_deg = det::atan(ratio * half_tan(camera.fov_deg)) * 360 / det::pi;
   return out;
@@ -98,7 +98,7 @@ Camera frame_bounds(const Aabb& bounds, const Vec3& from, double fov_deg, double
   c.fov_deg = fov_deg;
   if (bounds.empty()) return c;
   constexpr double margin = 1.1;  // of the picture to the box in it
-  constexpr double least = 1e-3;  // [m]
+  constexpr double least = 1e-3;  // least distance [m]
   const double t = half_tan(fov_deg) / margin;
   c.target = bounds.centre();
   c.eye = c.target + (from.norm() > 0 ? Vec3(from.normalized()) : Vec3(0, 0, 1));

@@ -22,8 +22,8 @@ struct CellPart {
   }
 };
 
-/// Joins a run to the rectangle that grows least by it, or begins one; what that overlaps is joined
-/// too.
+/// Joins a run of cells to the rectangle that grows least by it, or begins a new one; rectangles
+/// that the result overlaps are joined too.
 void include_run(std::vector<CellPart>& parts, CellPart run) {
   int least = run.cells() + cells_of_one_more;
   CellPart joined = run;

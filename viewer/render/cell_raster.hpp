@@ -3,22 +3,22 @@
 
 namespace tumble {
 
-/// Which parts of a picture something is in, as a raster of coarse cells and then as rectangles.
+/// Marks the coarse cells of a picture that contain something, and covers them with few rectangles.
 class CellRaster {
  public:
   CellRaster(int width, int height);
 
-  /// Cells that this rectangle touches [px], from the lower left corner of the picture.
+  /// Marks the cells that a rectangle touches [px, from the lower left corner of the picture].
   void mark(const std::array<double, 2>& low, const std::array<double, 2>& high);
   void mark_all();
 
-  /// Rectangles without overlap that hold all marked cells, and others where to leave them out
-  /// would cost more than it spares.
+  /// Disjoint rectangles that cover all marked cells. They may cover unmarked cells too, where more
+  /// rectangles would cost more than is saved.
   std::vector<ScissorRect> rectangles() const;
 
  private:
   int width_, height_, columns_, rows_;
-  std::vector<uint8_t> marked_;  ///< of each cell, rows upwards
+  std::vector<uint8_t> marked_;  ///< one flag per cell, rows upwards
 };
 
 }  // namespace tumble

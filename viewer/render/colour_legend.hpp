@@ -8,16 +8,16 @@
 
 namespace tumble {
 
-/// What the colours of something in a picture mean: a title with its unit over a bar of the colour
-/// map, with numbers.
+/// The legend of a colour map in a picture: a title with its unit over a bar of the colours with
+/// numbers.
 struct ColourLegend {
   std::string title;
   std::string unit;
   double low = 0, high = 1;
 };
 
-/// Puts legends at the lower right of an area of the picture [px: left, top, right, bottom], one
-/// above the other, in the font's texture. Grows with the picture.
+/// Puts legends one above the other at the lower right of an area of the picture [px: left, top,
+/// right, bottom], drawn with the font's texture. They grow with the picture's height [px].
 void add_legends(const std::vector<ColourLegend>& legends, const FontAtlas& font,
                  const std::array<float, 4>& area, int height, float ui_scale, UiDrawList& ui);
 

@@ -48,7 +48,7 @@ Vec3f viridis_linear(double value, double low, double high) {
 
 std::vector<double> NiceScale::numbers() const {
   std::vector<double> out;
-  const double slack = 1e-6;  // of a step: what rounding may put just outside
+  const double slack = 1e-6;  // in steps: a multiple that rounding puts just outside still counts
   for (double n = std::ceil(low / step - slack); n * step <= high + slack * step; ++n)
     out.push_back(n == 0 ? 0 : n * step);
   return out;

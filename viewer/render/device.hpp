@@ -12,8 +12,9 @@
 
 namespace tumble {
 
-// The narrow waist between the renderer and a graphics library. Two implementations: gl/ (OpenGL
-// 3.3 core) and null/ (draws nothing, checks everything). A Device belongs to one thread.
+// The narrow interface between the renderer and a graphics library. There are two implementations:
+// gl/ (OpenGL 3.3 core) and null/ (draws nothing, checks everything). A Device belongs to one
+// thread.
 
 /// Ids are opaque; 0 is none. A stale id is reported, never followed.
 template <class Tag>
@@ -30,17 +31,17 @@ using TargetId = DeviceId<struct TargetTag>;
 enum class BufferUse : uint8_t { vertex, index, uniform };
 enum class TextureFormat : uint8_t { r8, rgba8, rgba8_linear_filter, r8_linear_filter };
 enum class Topology : uint8_t { triangles, triangle_strip };
-/// The alpha of a target is what is left to see of what lies under it: 1 where nothing has been
-/// drawn, 0 under what is opaque. (The other way round, coverage of samples by alpha would leave
-/// its own value there.) What is drawn says by its alpha how much it covers, except with `none`,
-/// which stores it.
+/// How a fragment is combined with its target. The alpha of a target is its transmittance: 1 where
+/// nothing has been drawn, 0 under opaque surfaces. (If it were opacity, alpha to coverage would
+/// write its own alpha there.) The alpha of a fragment is its opacity, except with `none`, which
+/// stores it unchanged.
 enum class Blend : uint8_t {
   none,
   alpha,
   premultiplied,
-  add,       ///< what is drawn and what was there
-  multiply,  ///< what was there, times what is drawn
-  under,     ///< what was there, over what is drawn, which is opaque
+  add,       ///< adds the fragment to the target
+  multiply,  ///< multiplies the target by the fragment
+  under,     ///< puts an opaque fragment under the target, by the target's transmittance
 };
 enum class DepthTest : uint8_t { none, less_equal, greater };
 enum class Cull : uint8_t { none, back, front };
@@ -78,7 +79,7 @@ struct PipelineDesc {
   bool depth_write = true;
   Cull cull = Cull::back;
   bool colour_write = true;
-  bool alpha_to_coverage = false;  ///< leaves nothing where it covers
+  bool alpha_to_coverage = false;  ///< covered samples get transmittance 0
   bool covers_target = false;      ///< every draw replaces the colour of the whole target
   float depth_bias = 0;            ///< in depth steps (polygon offset units)
   float depth_slope_bias = 0;      ///< times the depth slope
@@ -88,19 +89,19 @@ enum class ColourAttachment : uint8_t {
   none,
   rgba8,
   r8,
-  r32f,     ///< numbers of any size, such as distances
-  rgba16f,  ///< sums
+  r32f,     ///< unbounded numbers such as distances
+  rgba16f,  ///< for accumulated sums
 };
 enum class DepthAttachment : uint8_t {
   none,
-  buffer,          ///< needed while drawing only
+  buffer,          ///< needed only while drawing (renderbuffer)
   texture,         ///< sampled as plain depth
   shadow_texture,  ///< sampled with comparison and linear filter
 };
 
 struct TargetDesc {
   int width = 0, height = 0;
-  int samples = 1;  ///< reduced to what the device has; 1: colour is a texture
+  int samples = 1;  ///< at most what the device supports is used; with 1 the colour is a texture
   ColourAttachment colour = ColourAttachment::rgba8;
   DepthAttachment depth = DepthAttachment::buffer;
 };
@@ -114,12 +115,12 @@ struct PassDesc {
   TargetId target;
   std::optional<std::array<float, 4>> clear_colour;
   bool clear_depth = true;
-  /// Then its colour is that of another target of the same size, its samples averaged, in these
-  /// parts, at least one.
+  /// If set, the pass begins with the colour of this other target of the same size, its samples
+  /// averaged, in `averaged_parts` (at least one).
   TargetId averages{};
   std::vector<ScissorRect> averaged_parts{};
-  /// Then its depth, cleared, is in these parts that of one sample of another target of the same
-  /// size.
+  /// If set, the pass clears the depth and then takes it, in `depth_parts`, from one sample of this
+  /// other target of the same size.
   TargetId depth_of{};
   std::vector<ScissorRect> depth_parts{};
 };
@@ -145,13 +146,14 @@ struct DrawCall {
   std::optional<ScissorRect> scissor;
 };
 
-/// What was asked of the device since begin_frame(). The hash covers everything that decides the
+/// Work requested of the device since begin_frame(). The hash covers everything that decides the
 /// picture (pipelines by name, contents of buffers and textures, order, counts, states) and is the
 /// same on every device.
 struct DrawStats {
   uint64_t hash = 0;
   uint32_t passes = 0;
-  uint32_t kept = 0;  ///< passes and resolves whose outcome the target held already: not done anew
+  /// Passes and resolves that were skipped because the target already had their result.
+  uint32_t kept = 0;
   uint32_t draws = 0;
   uint64_t instances = 0;
   uint64_t triangles = 0;
@@ -159,27 +161,29 @@ struct DrawStats {
   uint32_t live_resources = 0;  ///< buffers, textures, pipelines and targets not yet destroyed
 };
 
-/// What is drawn in a pass may be put off until its end: a pass that would leave its target as it
-/// is (same draws, same contents, after a clear of all that the target has) is counted and hashed,
-/// but not done again. So what stands still costs nothing, and pictures are what they would be.
+/// The draws of a pass may be deferred to its end. A pass whose target already has its result (a
+/// clear of everything in the target, then the same draws with the same contents) is counted and
+/// hashed, but not drawn again. Still pictures thus cost nothing, and the pixels are the same
+/// either way.
 class Device {
  public:
   virtual ~Device() = default;
 
   virtual const DeviceInfo& info() const = 0;
 
-  /// `data` may be empty: contents undefined until update_buffer.
+  /// `data` may be empty; the contents are then undefined until update_buffer.
   virtual BufferId create_buffer(BufferUse use, size_t size, std::span<const std::byte> data) = 0;
   /// Replaces the whole contents, growing or shrinking the buffer.
   virtual void update_buffer(BufferId buffer, std::span<const std::byte> data) = 0;
   virtual TextureId create_texture(TextureFormat format, int width, int height,
                                    std::span<const std::byte> data) = 0;
-  /// Fails with the compiler's log, the pipeline's name as place. Linked when first drawn with: see
-  /// take_link_failure().
+  /// Fails with the compiler's log; the place of the error is the pipeline's name. Linking is
+  /// deferred to the first draw: see take_link_failure().
   virtual Result<PipelineId> create_pipeline(const PipelineDesc& desc) = 0;
-  /// Fails when the size is beyond the device or memory.
+  /// Fails when the size exceeds the limits of the device or its memory.
   virtual Result<TargetId> create_target(const TargetDesc& desc) = 0;
-  /// The colour or depth texture of a target of one sample, for drawing with; owned by the target.
+  /// The colour or depth texture of a single-sampled target, to be sampled by draws; owned by the
+  /// target.
   virtual TextureId colour_texture(TargetId target) = 0;
   virtual TextureId depth_texture(TargetId target) = 0;
 
@@ -188,27 +192,30 @@ class Device {
   virtual void destroy(PipelineId id) = 0;
   virtual void destroy(TargetId id) = 0;
 
-  /// Starts a frame: counters and hash begin anew.
+  /// Starts a frame: resets the counters and the hash.
   virtual void begin_frame() = 0;
   virtual void begin_pass(const PassDesc& pass) = 0;
   virtual void draw(const DrawCall& call) = 0;
   virtual void end_pass() = 0;
-  /// Copies colour, averaging samples; equal sizes, outside a pass.
+  /// Copies the colour, averaging samples, to a target of the same size. Must be called outside a
+  /// pass.
   virtual void resolve(TargetId from, TargetId to) = 0;
-  /// RGBA rows, top row first, of a target of one sample; waits for the drawing to end.
+  /// The pixels of a single-sampled target as RGBA rows, top row first. Waits until drawing has
+  /// finished.
   virtual void read_pixels(TargetId target, std::span<uint8_t> rgba) = 0;
-  /// Copies a target of one sample to the window's own framebuffer, top left aligned.
+  /// Copies a single-sampled target to the window's framebuffer, aligned at the top left.
   virtual void present(TargetId target) = 0;
 
-  /// What is in the targets may be lost, as over a suspend or on another console: every pass is
-  /// drawn anew.
+  /// To be called when the contents of the targets may be lost, e.g. after a suspend or a switch of
+  /// the console: every later pass is drawn anew.
   virtual void forget_contents() = 0;
 
   virtual DrawStats stats() const = 0;
-  /// Misuse and driver errors since the last call, as sentences; empty when all is well.
+  /// Misuse and driver errors since the last call, as sentences; empty if there were none.
   virtual std::vector<std::string> take_faults() = 0;
-  /// The first failure of linking among the pipelines drawn with since the last call, the name of
-  /// one as place: what they draw is missing, everything else is there.
+  /// The first failure of linking among the pipelines drawn with since the last call; the place of
+  /// the error is that pipeline's name. Draws with such pipelines are missing from the picture, all
+  /// others are drawn.
   virtual Status take_link_failure() = 0;
 };
 

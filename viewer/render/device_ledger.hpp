@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// Records by id, with generations so that a stale id finds nothing.
+/// Records by id. Ids carry a generation, so that a stale id finds nothing.
 template <class Id, class Record>
 class Slots {
  public:
@@ -50,8 +50,9 @@ class Slots {
   std::vector<Slot> slots_;
 };
 
-/// What every device does alike: hands out ids, checks each call, counts, and hashes the draw list.
-/// A device asks the ledger first and touches its graphics library only after a yes.
+/// What all devices have in common: hands out ids, checks each call, counts, and hashes the draw
+/// list. A device asks the ledger first and calls its graphics library only if the ledger accepts
+/// the call.
 class DeviceLedger {
  public:
   struct Buffer {
@@ -59,8 +60,8 @@ class DeviceLedger {
     size_t size = 0;
     uint64_t content = 0;
     bool defined = false;
-    std::vector<uint32_t> indices;  ///< of index buffers, when strict
-    unsigned native = 0;            ///< name in the graphics library
+    std::vector<uint32_t> indices;  ///< contents of index buffers, if strict
+    unsigned native = 0;            ///< name (handle) in the graphics library
   };
   struct Texture {
     int width = 0, height = 0;
@@ -77,7 +78,7 @@ class DeviceLedger {
   struct Target {
     TargetDesc desc;
     TextureId colour, depth;
-    uint64_t held = 0;  ///< hash of all that decided what is in it; 0: unknown
+    uint64_t held = 0;  ///< hash of all that decided its present contents; 0: unknown
     unsigned native = 0;
     unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
   };
@@ -106,9 +107,9 @@ class DeviceLedger {
   bool draw(const DrawCall& call);
   bool end_pass();
   bool resolve(TargetId from, TargetId to);
-  /// Whether what the last pass or resolve gives was in its target already.
+  /// Whether the target already had the result of the last pass or resolve.
   bool kept() const { return kept_; }
-  /// Nobody knows any more what is in the targets.
+  /// Marks the contents of all targets as unknown.
   void forget_contents();
   bool read_pixels(TargetId target, size_t bytes);
   bool present(TargetId target);
@@ -142,7 +143,7 @@ class DeviceLedger {
   void hash_draw(const DrawCall& call, const Pipeline& pipeline);
   bool check_average(const PassDesc& pass, const Target* from, const Target* to);
   bool check_depth(const PassDesc& pass, const Target* from, const Target* to);
-  /// The open pass begins with parts of what another target holds.
+  /// The open pass begins with parts of the contents of another target.
   void take_from(const Target& from, std::span<const ScissorRect> parts);
   bool check_resolve(const Target* from, const Target* to);
   void note_content(uint64_t& held, uint64_t content);
@@ -152,9 +153,9 @@ class DeviceLedger {
   Slots<TextureId, Texture> textures_;
   Slots<PipelineId, Pipeline> pipelines_;
   Slots<TargetId, Target> targets_;
-  TargetId current_;             ///< of the open pass
-  uint64_t pass_content_ = 0;    ///< as Target::held
-  bool depth_is_fresh_ = false;  ///< all of the target's depth is as cleared
+  TargetId current_;             ///< target of the open pass
+  uint64_t pass_content_ = 0;    ///< hash of the open pass so far, as Target::held
+  bool depth_is_fresh_ = false;  ///< no draw of the pass has changed the cleared depth yet
   bool kept_ = false;
   DrawStats stats_;
   std::vector<std::string> faults_;

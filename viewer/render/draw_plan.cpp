@@ -20,14 +20,14 @@ struct Item {
   bool patterned;       ///< see Batch
 };
 
-/// A body that is drawn somewhere.
+/// A body that is drawn in at least one layer.
 struct Entry {
   const MeshRef* mesh;
   GpuInstance gpu;
   Vec3 centre;
   double radius;
   bool selected, casts_shadow, blended;
-  bool ball;  ///< drawn as a card
+  bool ball;  ///< drawn as an impostor
   double ball_radius;
 };
 
@@ -47,7 +47,7 @@ GpuInstance pack(const MeshInstance& i) {
   return g;
 }
 
-/// How much longer it makes each axis.
+/// Factor by which the transform lengthens each axis.
 Vec3f lengthening(const Mat3f& linear) {
   return {linear.col(0).norm(), linear.col(1).norm(), linear.col(2).norm()};
 }
@@ -62,8 +62,7 @@ void bound(const MeshInstance& i, Vec3& centre, double& radius) {
   radius = double(axes.cwiseProduct(half).norm() + 1.7321f * i.inflate);
 }
 
-/// The coarser version that is good enough, and the instance changed to suit it: plain meshes take
-/// the inflation into their scale.
+/// The coarsest version that is good enough.
 const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels) {
   const MeshRef* m = &mesh;
   while ((*m)->coarser && (pixels < double((*m)->coarser_below_pixels) ||
@@ -72,7 +71,7 @@ const MeshRef& detail(const MeshRef& mesh, double pixels, double inflate_pixels)
   return *m;
 }
 
-/// Of a sphere that is not squashed; else 0 [m].
+/// Radius of an undistorted sphere [m]; 0 for everything else.
 double radius_of_ball(const MeshInstance& i) {
   if (i.inflate != 0 || i.mesh->id != sphere_mesh()->id) return 0;
   const Vec3f axes = lengthening(i.transform.linear);
@@ -98,7 +97,7 @@ class Planner {
       Entry e{&i.mesh, pack(i), {}, 0, i.selected, i.casts_shadow, i.paint.opacity < 1, false, 0};
       bound(i, e.centre, e.radius);
       e.ball_radius = radius_of_ball(i);
-      // With the eye inside, or nearly, there is no outline to draw a card around.
+      // With the eye inside, or nearly, the sphere has no outline for an impostor.
       e.ball = e.ball_radius > 0 && !e.blended &&
                (e.centre - view_.eye).squaredNorm() > 1.05 * e.ball_radius * e.ball_radius;
       add(e);
@@ -128,7 +127,7 @@ class Planner {
            float(e.blended ? -depth : depth), source);
       if (e.selected) push(Layer::outlined, mesh, 0, source);
     }
-    // Shadows are blurred: half the detail does.
+    // Shadows are blurred, so half the detail is enough.
     if (casts && e.ball)
       ball_casters_.push_back({{float(e.centre.x()), float(e.centre.y()), float(e.centre.z())},
                                float(e.ball_radius),
@@ -143,8 +142,8 @@ class Planner {
     items_.push_back({layer, &mesh, order, source, patterned});
   }
 
-  /// Cards are tested for depth after they are shaded: what stands behind other balls costs as much
-  /// as what is seen.
+  /// Impostors are tested for depth after they are shaded, since the shader computes the depth:
+  /// hidden balls would cost as much as visible ones.
   void leave_out_hidden_balls() {
     std::vector<size_t> which;
     std::vector<ProjectedDisc> discs;

@@ -12,7 +12,7 @@ namespace {
 
 /// What antialiasing, and the outline of what is selected, add to a body [px].
 constexpr double rim = 2, outline_rim = 6;
-/// What is less than this far below the ground is on it, up to rounding [px].
+/// Bodies that reach less than this below the ground are considered to rest on it (rounding) [px].
 constexpr double unseen_depth = 1e-3;
 
 /// The parallelepiped around a body: its half axes, and how much wider it is drawn.

@@ -7,13 +7,13 @@
 
 namespace tumble {
 
-/// Rectangles of pixels that hold all bodies and particles of the scene, by their boxes: what lies
-/// outside is ground and sky. Nothing where none is in the picture. They are few, without
-/// overlap, on a coarse raster (CellRaster).
+/// Few disjoint rectangles [px], on the coarse raster of CellRaster, that contain the bounding
+/// boxes of all bodies and particles; outside of them there is only ground and sky. Empty if
+/// nothing is in view.
 std::vector<ScissorRect> drawn_parts(const RenderScene& scene, const ViewSetup& view);
 
-/// The same of what reaches so far below the ground that one would see it if the ground hid
-/// nothing.
+/// Likewise, rectangles that contain everything that reaches so far below the ground that it would
+/// be visible if the ground did not hide it.
 std::vector<ScissorRect> sunken_parts(const RenderScene& scene, const ViewSetup& view);
 
 }  // namespace tumble

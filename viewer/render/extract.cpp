@@ -42,16 +42,17 @@ Vec3f state_colour(const BodyFrame& body, const BodyInfo& info) {
   return body.asleep ? Vec3f(0.25f * colour) : colour;
 }
 
-constexpr float seen_through = 0.3f;  ///< opacity of what hides something under the microscope
-constexpr double plane_reach = 200;   ///< half width of a tilted half-space as drawn [m]
+/// Opacity of bodies that hide something under the microscope.
+constexpr float seen_through = 0.3f;
+constexpr double plane_reach = 200;  ///< half width of a tilted half-space as drawn [m]
 
-/// Height of the ground that a shape stands for; nothing for everything that is drawn itself.
+/// Height of the ground that a shape represents (an upward half space); empty for all other shapes.
 std::optional<double> ground_height(const Shape& shape, const Pose& pose) {
   const bool level = shape.is_half_space() && pose.direction(Vec3::UnitY()).y() > 1 - 1e-9;
   return level ? std::optional(pose.x.y()) : std::nullopt;
 }
 
-/// Above the body; at its middle where it has no end.
+/// Places the label above the body, or at its centre if it is unbounded.
 void add_body_label(const std::string& text, const Aabb& bounds, RenderScene& out) {
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite()) return;
   TextLabel label;
@@ -75,7 +76,7 @@ void add_particle_legend(const ParticleFrame& p, const NiceScale& scale, RenderS
 std::vector<Vec3> places_between(const ParticleFrame& from, const ParticleFrame& to, double s) {
   if (from.id != to.id) return to.x;
   std::vector<Vec3> places = to.x;
-  size_t then = 0;  // the place of the same particle in the frame before
+  size_t then = 0;  // index of the same particle in the frame before
   for (size_t i = 0; i < to.x.size(); ++i) {
     while (then < from.ids.size() && from.ids[then] < to.ids[i]) ++then;
     if (then == from.ids.size() || from.ids[then] != to.ids[i]) continue;
@@ -114,7 +115,7 @@ void add_particles(const ParticleFrame& from, const ParticleFrame& to, double s,
   }
 }
 
-/// As they are seen under the microscope.
+/// Adds particles with the colours that the microscope gives them.
 void add_coloured(const ParticleFrame& p, const std::vector<Vec3>& places,
                   const ParticleColours& colours, RenderScene& out) {
   const std::string title = p.name.empty() ? colours.title : p.name + ": " + colours.title;
@@ -171,7 +172,7 @@ Paint paint_of(const Look& look, const Material& material, double time) {
   if (belt != 0) {
     paint.pattern = Pattern::stripes;
     paint.pattern_strength = std::max(look.pattern, 0.25f);
-    // The pattern repeats after two bands; the rest of the shift would only cost precision.
+    // The pattern repeats after two bands; the multiple of that would only cost precision.
     paint.pattern_shift = float(std::fmod(belt * time, 2.0 * double(paint.pattern_size)));
   }
   return paint;

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Where most of the things are that a field acts on.
+/// Bounds of most of the things that a field acts on.
 Aabb target_bounds(const Frame& frame, const std::vector<Pose>& poses,
                    const FieldTargets& targets) {
   const auto named = [&](const auto& ids, auto id) {
@@ -31,7 +31,8 @@ struct FieldArrow {
   Vec3 x, value;
 };
 
-/// Arrows of one kind, the longest almost as long as the lattice is wide: none reaches the next.
+/// Arrows of one kind, scaled so that the longest is a little shorter than the lattice spacing and
+/// none reaches the next.
 void draw_field(const std::vector<FieldArrow>& arrows, double spacing, const Vec4f& colour,
                 RenderScene& out) {
   double most = 0;
@@ -43,15 +44,15 @@ void draw_field(const std::vector<FieldArrow>& arrows, double spacing, const Vec
   for (const FieldArrow& a : arrows) {
     const double size = a.value.norm();
     if (!(size > 1e-3 * most)) continue;
-    // Square roots, so that weak places still show which way it goes.
+    // The square root keeps the direction visible where the field is weak.
     const Vec3 along = 0.8 * spacing * std::sqrt(size / most) * a.value / size;
     const double radius = std::min(0.025 * spacing, 0.1 * along.norm());
     add_arrow(out, a.x - 0.5 * along, a.x + 0.5 * along, radius, paint);
   }
 }
 
-/// The places of a lattice in a box where arrows are drawn: what the eye can tell apart in a
-/// picture of a volume, about this many, and not more along an edge.
+/// Lattice of points in a box where arrows are drawn: about as many in the volume, and at most as
+/// many along an edge, as can be told apart in a picture.
 struct Lattice {
   static constexpr double places = 60, along_edge = 6;
 
@@ -75,14 +76,14 @@ struct Lattice {
   std::array<int, 3> count;
 };
 
-/// What fields on the same things do together there.
+/// The sum of fields that act on the same things.
 void draw_fields(const Frame& frame, const std::vector<const ForceDef*>& fields, Aabb bounds,
                  RenderScene& out) {
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite()) return;
   const double margin = 2 * typical_size(frame);
   const Lattice lattice(bounds.inflated(margin));
   for (const bool flow : {true, false}) {
-    // Between each other: no two arrows cross.
+    // The two kinds are shifted against each other, so that no two arrows cross.
     const Vec3 shift = Vec3::Constant((flow ? -0.25 : 0.25) * lattice.spacing);
     std::vector<FieldArrow> arrows;
     lattice.for_each([&](const Vec3& x) {

@@ -34,11 +34,11 @@ void add_particle_contacts(const Frame& frame, const Overlays& overlays, double 
   }
 }
 
-/// What forces are drawn by.
+/// Scale of the arrows of contact forces.
 struct ForceScale {
-  double median = 0;  ///< of the contacts that press [N s]; 0: none does
-  /// Forces begin within the bodies that are pressed. A few are drawn over everything; of a heap
-  /// that would be a thicket.
+  double median = 0;  ///< median impulse of the contacts with pressure [N s]; 0: there are none
+  /// Contact forces begin inside the pressed bodies. If there are few contacts they are drawn over
+  /// everything; in a heap they would be too dense.
   Occlusion within = Occlusion::none;
 };
 
@@ -66,8 +66,8 @@ void add_contacts(const Frame& frame, const Overlays& overlays, RenderScene& out
     if (overlays.normals)
       line(out, c.x_world, c.x_world + 0.5 * size * c.normal, overlay_colour::normal, 2);
     if (!overlays.forces) return;
-    // A force as most are here is shorter than a body, and does not hide it; stronger ones grow
-    // with the logarithm, so that a blow does not leave the picture.
+    // A force of median size is drawn shorter than a body, so that it does not hide the body.
+    // Longer ones grow with the logarithm, so that an impact does not leave the picture.
     constexpr double typical_length = 0.8;  // of a typical body's radius
     const double ratio = c.impulse.norm() / scale.median;
     if (!(ratio > 0)) return;
@@ -95,8 +95,8 @@ void add_body_overlays(const Frame& frame, const std::vector<Pose>& poses, const
 }
 
 constexpr int coil_turns = 8, lines_per_turn = 10, lines_of_coil = coil_turns * lines_per_turn + 2;
-/// Lines of all coils that a renderer draws fluently: in a net of more springs each is one line,
-/// and hidden by what stands before it.
+/// Greatest number of lines for all coils that a renderer draws fluently. A net with more springs
+/// draws each as one line that surfaces hide.
 constexpr size_t most_coil_lines = 20000;
 
 /// A coil of eight turns with straight ends.
@@ -121,7 +121,7 @@ void add_coil(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   line(out, last, b, spring_colour, 2.5f);
 }
 
-/// Stiff springs stand for ropes and rods: these are drawn as solid and cast shadows.
+/// Draws stiff springs, which stand for ropes and rods, as solid bodies with shadows.
 void add_cable(const Vec3& a, const Vec3& b, double radius, RenderScene& out) {
   const double length = (b - a).norm();
   if (!(length > 1e-9) || !std::isfinite(length)) return;
@@ -172,9 +172,9 @@ void add_axes(const Pose& frame, double size, RenderScene& out) {
          k == 2 ? 3.5f : 2);
 }
 
-/// Distance joints are rods and free ones ropes, whether or not joints are shown; the others show
-/// their frames. The line from anchor to anchor is what a slider has moved, or by how much a joint
-/// is not kept.
+/// Distance joints are drawn as rods, and those with slack as ropes, whether or not joints are
+/// shown; the others show their frames. The line from anchor to anchor is the travel of a slider,
+/// or else the position error of the joint.
 void add_joints(const Frame& frame, bool shown, RenderScene& out) {
   if (!frame.joints || frame.joints->empty()) return;
   const double size = shown ? 0.4 * typical_size(frame) : 0;

@@ -39,7 +39,7 @@ struct Outline {
                                          middle - u + v};
     for (size_t k = 0; k < 4; ++k) line(corners[k], corners[(k + 1) % 4]);
   }
-  /// Which way is forward.
+  /// Marks the direction that counts as forward.
   void arrow(double size) const {
     const Vec3 tip(0, size, 0);
     line(Vec3::Zero(), tip);
@@ -80,14 +80,14 @@ struct Outline {
 std::string label_of(const SensorFrame& s) {
   switch (s.kind) {
     case SensorKind::gate:
-      // Of many in a row there is room for the number that stayed beyond.
+      // In a row of many there is only room for the net count.
       if (s.name.ends_with(']')) return fmt::format("{}", int64_t(s.forward) - int64_t(s.backward));
       return s.flow == 0
                  ? fmt::format("{}: {}", s.name, s.forward + s.backward)
                  : fmt::format("{}: {}, {:.3g} kg/s", s.name, s.forward + s.backward, s.flow);
     case SensorKind::region:
       return fmt::format("{}: {}, {:.3g} kg", s.name, s.inside.size() + s.particles, s.mass);
-    case SensorKind::radial:  // is nowhere
+    case SensorKind::radial:  // has no place in space
     case SensorKind::contact:
       break;
   }
@@ -104,7 +104,7 @@ void add_label(const SensorFrame& sensor, const Vec3& x, const Vec4f& colour, Re
   out.texts.push_back(std::move(label));
 }
 
-/// Whether something is in it, or goes through, or touches.
+/// Whether something is inside it, passes through, or touches it.
 bool answers(const SensorFrame& s) {
   return s.touching || s.flow != 0 || !s.inside.empty() || s.particles > 0;
 }

@@ -10,16 +10,17 @@
 namespace tumble {
 namespace {
 
-/// The ball that a particle is for the surface, over its radius, which is half a spacing: so large
-/// that those of neighbours overlap without holes.
+/// Radius of a particle's ball for the surface over the particle's radius (half a spacing), large
+/// enough that the balls of neighbours overlap without holes [-].
 constexpr double ball_radius = 1.7;
-/// Drops that fly alone are smaller; and the shares of the density at rest between which balls
-/// grow.
+/// The same for isolated drops, which are smaller; and the range of densities over the rest density
+/// in which the ball grows from one to the other [-].
 constexpr double drop_radius = 0.6, least_share = 0.3, grown_share = 0.6;
-/// Puffs thin out towards their rim: what is seen of them is as large as the particle [-].
+/// Radius of a puff over that of its particle: puffs fade towards their rim, so the visible part is
+/// as large as the particle [-].
 constexpr double puff_radius = 1.5;
 constexpr double radii_of_clarity = 20;
-constexpr double most_turn = 0.35;  ///< speed at which a puff turns [rad/s]
+constexpr double most_turn = 0.35;  ///< greatest angular speed of a puff [rad/s]
 
 double median_radius(const ParticleFrame& p) {
   std::vector<double> radii = p.radius;
@@ -28,7 +29,7 @@ double median_radius(const ParticleFrame& p) {
   return *middle;
 }
 
-/// How much a particle of that density is part of the liquid and no drop, 0..1.
+/// How far a particle with this density belongs to the liquid, 0..1; 0 is a drop.
 double wholeness(double share) {
   const double u = std::clamp((share - least_share) / (grown_share - least_share), 0.0, 1.0);
   return u * u * (3 - 2 * u);
@@ -39,7 +40,7 @@ std::array<float, 6> packed(const Mat3& m) {
           float(m(0, 1)), float(m(0, 2)), float(m(1, 2))};
 }
 
-/// A number in 0..1 that is a particle's own.
+/// A pseudo-random number in 0..1 that depends on the particle's id only.
 double own_number(uint64_t id) {
   uint64_t h = id * 0x9E3779B97F4A7C15u;
   h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -62,7 +63,7 @@ void add_liquid(const ParticleFrame& p, std::span<const Vec3> x, RenderScene& ou
   const double clarity = p.look.clarity > 0 ? p.look.clarity : radii_of_clarity * radius;
   fluid.clarity = float(clarity);
   fluid.radius = float(ball_radius * radius);
-  // A particle is the cube of its spacing, two radii.
+  // A particle represents a cube whose edge is the spacing, two radii.
   fluid.fill = float(8 / (4 * det::pi / 3 * ball_radius * ball_radius * ball_radius));
   fluid.particles.reserve(x.size());
   for (size_t i = 0; i < x.size(); ++i) {

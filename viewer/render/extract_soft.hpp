@@ -6,10 +6,10 @@
 
 namespace tumble {
 
-/// A system of style `surface` as a liquid; `x` are the places of its particles at the moment
-/// shown.
+/// Adds a particle system of style `surface` as a liquid; `x` are the positions of its particles at
+/// the moment shown [m].
 void add_liquid(const ParticleFrame& particles, std::span<const Vec3> x, RenderScene& out);
-/// A system of style `smoke`.
+/// Adds a particle system of style `smoke`.
 void add_smoke(const ParticleFrame& particles, std::span<const Vec3> x, RenderScene& out);
 
 }  // namespace tumble

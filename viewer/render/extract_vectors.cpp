@@ -13,14 +13,15 @@
 namespace tumble {
 namespace {
 
-/// The weight of a typical body is an arrow of so many of its sizes.
+/// Length of the arrow for the weight of a typical body, in body sizes [-].
 constexpr double weight_length = 1.5;
-constexpr double usual_gravity = 9.81;  ///< where there is none [m/s2]
-/// Arrows of momentum and force end here, in sizes, with a dot in place of a head.
+constexpr double usual_gravity = 9.81;  ///< used where there is no gravity [m/s2]
+/// Arrows of momentum and force are cut at this length, in body sizes, and then end in a dot
+/// instead of a head.
 constexpr double longest_vector = 12;
-/// Of so few bodies arrows are drawn over everything; more would be a thicket.
+/// Up to this many bodies, arrows are drawn over everything; more would be too dense.
 constexpr size_t few_bodies = 50;
-/// Arrows of particles: more would be a cloud without directions.
+/// Greatest number of arrows of particles; more would show no directions.
 constexpr size_t most_arrows = 1000;
 
 /// 1, 2 or 5 times a power of ten, not less than `value`.
@@ -48,7 +49,7 @@ std::string scale_words(double one_metre, const char* unit) {
                           : fmt::format("1 m is {:.0f} {}", one_metre, unit);
 }
 
-/// An arrow with a head, or what there is room for of it.
+/// Adds an arrow with a head, shortened to the greatest length.
 void add_vector(RenderScene& out, const Vec3& from, const Vec3& along, double size,
                 const Vec4f& colour, Occlusion within) {
   const double length = along.norm(), most = longest_vector * size;
@@ -63,7 +64,7 @@ void add_vector(RenderScene& out, const Vec3& from, const Vec3& along, double si
   out.points.push_back({.x = end.cast<float>(), .colour = colour, .size = 9, .occlusion = within});
 }
 
-/// A little aside, so that a momentum does not lie on its velocity.
+/// A small sideways offset, so that the arrow of a momentum does not lie on that of the velocity.
 Vec3 aside(const Vec3& along, double distance) {
   if (!(along.norm() > 0)) return Vec3::Zero();
   Vec3 u, v;
@@ -71,15 +72,15 @@ Vec3 aside(const Vec3& along, double distance) {
   return distance * u;
 }
 
-/// Of every so many particles, by their ids, an arrow is drawn; 1: of all.
+/// Arrows are drawn for every n-th particle by id; 1: for all.
 size_t arrow_stride(const Frame& frame) {
   size_t all = 0;
   for (const auto& system : frame.particles) all += system->x.size();
   return std::max<size_t>((all + most_arrows - 1) / most_arrows, 1);
 }
 
-/// Calls visit(particle, v) for the particles of a system whose arrows are drawn, with what they
-/// have moved in the last tick over its length [m/s]. Both lists ascend by id.
+/// Calls visit(particle, v) for those particles of a system that have arrows, where v is the
+/// displacement in the last tick over its length [m/s]. Both lists must ascend by id.
 template <class Visit>
 void each_moved(const ParticleFrame& before, const ParticleFrame& now, double tick, size_t stride,
                 const Visit& visit) {
@@ -124,7 +125,7 @@ std::string left_out_words(const Frame& frame) {
   return fmt::format("; {} of {} are drawn", drawn, all);
 }
 
-/// In the middle of some of them [kg].
+/// Median mass of a sample of particles [kg].
 double typical_particle_mass(const Frame& frame) {
   constexpr size_t looked_at = 1000;
   std::vector<double> masses;
@@ -142,7 +143,7 @@ double typical_particle_mass(const Frame& frame) {
 
 void add_thin_arrow(RenderScene& out, const Vec3& from, Vec3 along, double size,
                     const Vec4f& colour, Occlusion within) {
-  constexpr double longest = 200;  // sizes: it leaves any picture that shows its body
+  constexpr double longest = 200;  // in body sizes: longer than any picture that shows the body
   if (along.norm() > longest * size) along *= longest * size / along.norm();
   const double length = along.norm();
   if (!along.allFinite() || !(length > 0.03 * size)) return;

@@ -17,7 +17,7 @@ const SpringMesh* drawn_mesh(const ForceFrame& force) {
   return def->mesh->faces.empty() && def->mesh->strands.empty() ? nullptr : def->mesh.get();
 }
 
-/// Where the nodes are between two frames; those of another frame count where it has the same
+/// Positions of the nodes between two frames; the earlier frame is only used if it has the same
 /// nodes.
 std::vector<Vec3> nodes_between(const Frame& from, const ForceFrame& to, double s) {
   const auto then = std::ranges::find(from.forces, to.id, &ForceFrame::id);
@@ -29,7 +29,8 @@ std::vector<Vec3> nodes_between(const Frame& from, const ForceFrame& to, double 
   return out;
 }
 
-/// A mesh near its own origin, so that single precision is enough far from the world's.
+/// A mesh relative to an origin nearby, so that single precision suffices far from the world's
+/// origin.
 struct Nearby {
   Vec3 origin = Vec3::Zero();
   explicit Nearby(const std::vector<Vec3>& nodes) {
@@ -61,7 +62,7 @@ void add_surface(const SpringMesh& mesh, const std::vector<Vec3>& nodes, RenderS
   for (const SpringMesh::Face& face : mesh.faces) {
     const auto& [a, b, c] = face.node;
     const Vec3 cross = (nodes[b] - nodes[a]).cross(nodes[c] - nodes[a]);
-    if (!cross.allFinite()) continue;  // a node is gone
+    if (!cross.allFinite()) continue;  // a node no longer exists
     for (const uint32_t node : face.node) sums[node] += cross;
     std::vector<uint32_t>& list = indices[face.tone != 0];
     list.insert(list.end(), face.node.begin(), face.node.end());
@@ -78,8 +79,8 @@ void add_surface(const SpringMesh& mesh, const std::vector<Vec3>& nodes, RenderS
                    out);
 }
 
-/// Tubes around polylines of nodes: a ring of vertices at every node, turned along as little as
-/// the line bends.
+/// Tubes around polylines of nodes: a ring of vertices at every node, carried along with the least
+/// rotation (parallel transport).
 class Tubes {
  public:
   Tubes(const std::vector<Vec3>& nodes, double radius)

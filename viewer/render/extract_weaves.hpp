@@ -7,7 +7,8 @@
 
 namespace tumble {
 
-/// The particles that meshes of springs draw as cloth, net or rope, and that are no balls then.
+/// The particles that are nodes of meshes of springs: these are drawn as cloth, net or rope, and
+/// their particles not as balls.
 class WovenParticles {
  public:
   explicit WovenParticles(const Frame& frame);
@@ -17,8 +18,8 @@ class WovenParticles {
   std::map<uint32_t, std::vector<uint64_t>> by_system_;  ///< ascending
 };
 
-/// Cloths as smooth surfaces that are seen from both sides, ropes and nets as tubes, at the moment
-/// `s` of the way from one frame to the next.
+/// Adds cloths as smooth two-sided surfaces, and ropes and nets as tubes, at the fraction `s` of
+/// the way between two frames.
 void add_weaves(const Frame& from, const Frame& to, double s, RenderScene& out);
 
 }  // namespace tumble

@@ -7,23 +7,24 @@
 namespace tumble {
 namespace {
 
-/// Only near the surface is there air to take in: particles denser than this are inside [-].
+/// Particles with more than this share of the rest density are inside, where there is no air to
+/// entrain [-].
 constexpr float inner_share = 0.97f;
-/// Speeds of approach at which liquid begins to break and is all white, in units of the speed of
-/// waves as long as ten spacings.
+/// Approach speeds at which the liquid begins to whiten and is fully white, in units of the speed
+/// of gravity waves with a wavelength of ten spacings [-].
 constexpr double first_break = 0.15, all_broken = 0.6;
-/// Shares of the density at rest at which a drop is as white as can be, and not white [-].
+/// Shares of the rest density at which an isolated drop is fully white, and not white at all [-].
 constexpr double white_drop = 0.35, clear_drop = 0.6;
-constexpr double gravity = 9.81;  ///< that of waves on Earth [m/s2]
+constexpr double gravity = 9.81;  ///< for the speed of waves [m/s2]
 
-/// A particle of the liquid and what is known of all.
+/// The liquid's particles, their velocities and densities.
 class FoamFinder {
  public:
   FoamFinder(const LiquidNeighbours& neighbours, std::span<const Vec3f> v,
              std::span<const float> share)
       : neighbours_(neighbours), v_(v), share_(share) {}
 
-  /// Calls f(place, particle) for what is near the surface.
+  /// Calls f(rank, particle) for particles near the surface.
   template <class F>
   void over_surface(const F& f) const {
     for (size_t place = 0; place < neighbours_.size(); ++place) {
@@ -31,7 +32,7 @@ class FoamFinder {
       if (share_[i] <= inner_share) f(place, i);
     }
   }
-  /// Mean speed at which neighbours come nearer [m/s]; what is nearer weighs more.
+  /// Mean approach speed of the neighbours [m/s], with larger weights for nearer ones.
   double approach(size_t place) const {
     double sum = 0, weights = 0;
     const uint32_t i = neighbours_.particle(place);
@@ -39,7 +40,7 @@ class FoamFinder {
       const Vec3 v = (v_[i] - v_[j]).cast<double>();
       const Vec3 apart = (neighbours_.x()[i] - neighbours_.x()[j]).normalized();
       weights += 1 - u;
-      // |v| (1 - cos) / 2: nothing of what moves apart, all of what meets.
+      // v| (1 - cos) / 2: zero for separating, |v| for head-on approach.
       sum += (1 - u) * 0.5 * (v.norm() - v.dot(apart));
     });
     return weights > 0 ? sum / weights : 0;

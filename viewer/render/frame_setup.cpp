@@ -21,15 +21,15 @@ std::array<float, 4> four(const Vec3f& v) {
   return {v.x(), v.y(), v.z(), 0};
 }
 
-/// From where the camera is to what it looks at, bounded so that all that follows from it is finite
-/// in single precision [m].
+/// Distance from the camera to its target, bounded so that everything derived from it is finite in
+/// single precision [m].
 double viewing_distance(const Camera& c) {
   const double distance = (c.eye - c.target).norm();
   return distance > 0 ? std::clamp(distance, 1e-3, 1e5) : 1e-3;
 }
 
-/// What is farther away, in viewing distances, is a dot in the haze: it sets neither the depth of
-/// the picture nor the size of the shadow map.
+/// Objects farther than this many viewing distances are ignored when the depth range and the shadow
+/// map are chosen [-].
 constexpr double near_reach = 1000;
 Aabb near_region(const Camera& c) {
   const Vec3 half = Vec3::Constant(near_reach * viewing_distance(c));
@@ -62,7 +62,7 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
   const double half = content.empty() ? look : 0.5 * content.extent().norm();
   const double radius = std::clamp(half, 1e-3, 20 * look);
   double to_content = content.empty() ? look : (c.eye - content.centre()).norm() - radius;
-  // Of what is spread wider than that, a part may be next to the eye.
+  // If the contents are spread wider than that, some of them may be next to the eye.
   if (half > radius) to_content = std::min(to_content, 0.0);
   Distances d;
   d.haze = 14 * std::max(look, std::min(radius, 3 * look));
@@ -74,8 +74,8 @@ Distances distances_of(const RenderScene& scene, const Aabb& content) {
   return d;
 }
 
-/// The grid that suits a viewing distance: the chosen spacing from 8 to 80 times it, else a power
-/// of ten finer or coarser; its fine lines fade before they give way.
+/// The ground grid for a viewing distance: the chosen spacing at 8 to 80 times the spacing,
+/// otherwise a power of ten finer or coarser; fine lines fade before they are left out.
 struct GridLevel {
   double spacing, fade;
 };
@@ -87,8 +87,8 @@ GridLevel grid_level(double chosen, double look) {
   return {spacing * det::pow(10.0, whole), 1 - over};
 }
 
-/// Half way to its grey: the light of the sky mixes with what everything around throws back, and a
-/// full blue makes shadows look painted.
+/// The colour half-way to its grey: skylight mixes with light reflected by the surroundings, and
+/// shadows of a saturated blue would look painted.
 Vec3f muted(const Vec3f& c) {
   const float grey = c.dot(Vec3f(0.2126f, 0.7152f, 0.0722f));
   return 0.5f * (c + Vec3f::Constant(grey));
@@ -102,7 +102,7 @@ void set_light(const RenderScene& scene, GpuFrame& u) {
   u.horizon = four(Vec3f(muted(sky.horizon) * light));
   u.below = four(Vec3f(sky.below * (1.5f * light)));
   u.sky_zenith = four(sky.zenith);
-  // The sky fades into the same haze as the ground, so that no line parts them.
+  // The sky fades into the same haze as the ground, so that no line separates them.
   const Vec3f h = scene.haze_colour.value_or(sky.horizon);
   u.sky_horizon = four(h);
   u.haze = four(rgb_of(rgba_bytes(Vec4f(h.x(), h.y(), h.z(), 1))));

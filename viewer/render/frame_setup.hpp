@@ -4,22 +4,23 @@
 
 namespace tumble {
 
-/// What a quality preset stands for.
+/// The values of a quality preset.
 struct QualityValues {
   int samples, shadow_size, contact_size;
   bool operator==(const QualityValues&) const = default;
 };
 QualityValues values_of(Quality quality);
 
-/// Everything about a picture that follows from camera, sun and bounds.
+/// Everything that follows from camera, sun and bounds of a picture.
 struct FrameSetup {
   Camera camera;  ///< with near and far filled in
   ViewSetup view;
   GpuFrame uniforms;
   bool shadows = false;
-  double shadow_texel = 0, contact_texel = 0;  ///< of the maps, on what faces sun or ground [m]
-  Aabb region;                                 ///< what is beyond it is a dot in the haze
-  double lowest = 0;                           ///< nothing that is drawn is below this height [m]
+  double shadow_texel = 0, contact_texel = 0;  ///< size of a texel of the maps, on surfaces
+                                               ///< perpendicular to the sun or on the ground [m]
+  Aabb region;        ///< things beyond it would be smaller than a dot, or lost in haze
+  double lowest = 0;  ///< nothing that is drawn is below this height [m]
 };
 FrameSetup make_frame_setup(const RenderScene& scene, int width, int height);
 

@@ -38,8 +38,8 @@ void add_cone(const ContactFrame& c, double slant, Occlusion occlusion, RenderSc
     for (int i = 0; i < sides; ++i) line(rim(i), rim(i + 1), colours.cone, 1.5f);
     for (int i = 0; i < sides; i += sides / edges) line(c.x_world, rim(i), colours.cone, 1.5f);
   }
-  // To the height of the rim; an iterative solver may also leave the cone, then the line is as long
-  // as the slant edge.
+  // Scaled to the height of the rim. With an iterative solver the impulse may be outside the cone;
+  // the line is then as long as the slant edge.
   const double scale = std::min(height / c.impulse.dot(c.normal), slant / c.impulse.norm());
   line(c.x_world, c.x_world + scale * c.impulse, colours.force, 3);
 }
@@ -55,8 +55,8 @@ ContactGrip grip_of(const ContactFrame& c) {
 
 void add_friction_cones(const Frame& frame, BodyId selected, RenderScene& out) {
   const double slant = 0.75 * typical_size(frame);
-  // Cones stand inside the body that is pressed. Of one body they are drawn over everything; of
-  // all, that would be a thicket.
+  // Cones are inside the pressed body. Those of one body are drawn over everything; those of all
+  // bodies would be too dense.
   const Occlusion occlusion = selected ? Occlusion::none : Occlusion::faint;
   frame.for_contacts([&](const ContactFrame& c) {
     const bool shown = !selected || c.a == selected || c.b == selected;

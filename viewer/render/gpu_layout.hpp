@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-// What buffers hold, byte for byte as the shaders read it.
+// Contents of buffers, byte for byte as the shaders read them.
 
 struct GpuVertex {
   std::array<float, 3> position;
@@ -13,7 +13,7 @@ struct GpuVertex {
 };
 
 struct GpuInstance {
-  std::array<std::array<float, 4>, 3> rows;  ///< world from mesh
+  std::array<std::array<float, 4>, 3> rows;  ///< world from mesh, 3 x 4, rows
   std::array<float, 4> colour;
   std::array<float, 4> look;     ///< roughness, metallic, emission, inflate
   std::array<float, 4> pattern;  ///< kind, strength, size, shift
@@ -34,7 +34,8 @@ struct GpuPoint {
 };
 static_assert(sizeof(GpuPoint) == 32);
 
-/// One of the three equal vertices of a particle's triangle: the shader tells them apart by number.
+/// One of the three equal vertices of a particle's triangle; the shader tells them apart by
+/// gl_VertexID.
 struct GpuSphere {
   std::array<float, 3> centre;
   float radius;
@@ -42,7 +43,7 @@ struct GpuSphere {
 };
 static_assert(sizeof(GpuSphere) == 32);
 
-/// A particle of a liquid, as FluidParticle.
+/// A particle of a liquid; see FluidParticle.
 struct GpuFluidParticle {
   std::array<float, 3> centre;
   float radius;
@@ -56,20 +57,25 @@ static_assert(sizeof(GpuFluidParticle) == 48);
 struct GpuPuff {
   std::array<float, 4> place;   ///< centre, radius [m]
   std::array<float, 4> colour;  ///< linear, opacity
-  std::array<float, 4> look;    ///< share of the sun, glow, cosine and sine of its turn
-  std::array<float, 2> corner;  ///< of its picture in the atlas
+  /// Share of the sunlight that reaches it, glow, cosine and sine of its rotation.
+  std::array<float, 4> look;
+  std::array<float, 2> corner;  ///< corner of its picture in the atlas
 };
 static_assert(sizeof(GpuPuff) == 56);
 
-/// The uniform block Soft of shaders/soft.glsl (std140): of liquids, and of the veil over the sun.
+/// The uniform block Soft of shaders/soft.glsl (std140), for liquids and the shadow that liquids
+/// and smoke cast (SunVeil).
 struct GpuSoft {
-  std::array<float, 16> veil_from_world;  ///< to 0..1 over the veil; depth away from the sun
-  std::array<float, 4> veil;    ///< 1/softness of its front edge, pixels by one of its shade
-  std::array<float, 4> depths;  ///< near, far [m], pixels at distance 1, pixels by texel of smoke
-  std::array<float, 4> absorb;  ///< [1/m], thickness of a chord over its length [-]
-  std::array<float, 4> body;    ///< colour, most foam
-  std::array<float, 4> smooth;  ///< reach, narrow range, step behind it [m], most texels
-  std::array<float, 4> ball;    ///< radius [m], unused
+  std::array<float, 16> veil_from_world;  ///< maps the veil to 0..1; depth grows away from the sun
+  std::array<float, 4> veil;    ///< 1 / softness of its front boundary, then pixels of the picture
+                                ///< per pixel of its shade
+  std::array<float, 4> depths;  ///< near, far [m], pixels per unit at distance 1, pixels of the
+                                ///< picture per texel of smoke
+  std::array<float, 4> absorb;  ///< absorption [1/m], then thickness per length of a chord [-]
+  std::array<float, 4> body;    ///< colour, greatest foam
+  std::array<float, 4> smooth;  ///< reach, range that is smoothed, step for what is behind it [m],
+                                ///< greatest reach [texels]
+  std::array<float, 4> ball;    ///< radius of a ball [m], unused
 };
 static_assert(sizeof(GpuSoft) == 64 + 6 * 16);
 

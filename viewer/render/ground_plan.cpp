@@ -7,9 +7,9 @@
 namespace tumble {
 namespace {
 
-/// Squares of the raster along its longer side: at most this, and more than half of it.
+/// Squares of the raster along its longer side: at most this many, and more than half as many.
 constexpr int most_squares = 40;
-/// What the maps' filters reach beyond a body's own shade [texels].
+/// Reach of the filters of the two maps beyond the shade of a body [texels].
 constexpr double shadow_filter = 3, contact_filter = 8;
 
 /// A rectangle of the plane, x and z [m].
@@ -68,7 +68,8 @@ class GroundPlanner {
       add_patch(box, 0, 0, contact_filter * setup_.contact_texel);
   }
 
-  /// What is between two heights above the ground, moved down along the rays of the sun.
+  /// Adds the shade of the part of a box between two heights above the ground, projected along the
+  /// rays of the sun.
   void add_patch(const Aabb& box, double low, double high, double rim) {
     Patch p;
     for (size_t k = 0; k < 2; ++k) {
@@ -106,7 +107,7 @@ class GroundPlanner {
     shaded_.assign(across * (lines_[1].size() - 1), 0);
     for (const Patch& p : patches_) {
       std::array<size_t, 2> from{}, to{};
-      for (size_t k = 0; k < 2; ++k) {  // behind the rim's one
+      for (size_t k = 0; k < 2; ++k) {  // the first line after the rim
         from[k] = size_t(std::floor(p.low[k] / square_) - first_[k]) + 1;
         to[k] = size_t(std::floor(p.high[k] / square_) - first_[k]) + 1;
       }
@@ -139,7 +140,7 @@ class GroundPlanner {
   Patch all_;
   std::vector<Patch> patches_;
   std::array<std::vector<double>, 2> lines_;
-  std::array<double, 2> first_{};  ///< number of the first line behind the rim
+  std::array<double, 2> first_{};  ///< number of the first line after the rim
   double square_ = 1;              ///< side of a square [m]
   std::vector<uint8_t> shaded_;    ///< of each square, rows along x
 };

@@ -54,7 +54,7 @@ HierarchyViews::Entry* HierarchyViews::entry(const std::shared_ptr<const Shape>&
                                              std::string_view kind) {
   if (!shape->is_mesh()) return nullptr;
   Entry& e = entries_[{shape.get(), std::string(kind)}];
-  // Another shape may have been made in the place of one that is gone.
+  // A new shape may have the address of a deleted one.
   if (e.hierarchy && e.shape.lock() == shape) return &e;
   for (const HierarchyKind& k : all_hierarchies()) {
     if (k.name != kind) continue;

@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// A level of a hierarchy as it is drawn, in the frame of its mesh.
+/// One level of a hierarchy as it is drawn, in the frame of its mesh.
 struct HierarchyView {
   struct Wire {
     Vec3 a, b;
@@ -21,25 +21,26 @@ struct HierarchyView {
     MeshRef mesh;
     Vec3f colour;
   };
-  std::vector<Wire> wires;    ///< of all volumes
-  std::vector<Piece> pieces;  ///< the triangles of each volume; none when there are too many
+  std::vector<Wire> wires;  ///< edges of all volumes
+  /// Triangles by the volume that contains them; empty if there are too many.
+  std::vector<Piece> pieces;
   size_t volumes = 0;
 
   static constexpr size_t most_pieces = 256;
 };
 
-/// The view of one level; `with_pieces` cuts the mesh as well.
+/// Makes the view of one level; `with_pieces` also divides the mesh by volume.
 HierarchyView make_hierarchy_view(const Hierarchy& hierarchy, int level, bool with_pieces);
 
-/// Hierarchies of triangle meshes as the viewer draws them, built once for each mesh and kind; the
-/// view of the level asked for last is kept with each.
+/// Cache of hierarchies of triangle meshes for drawing, built once for each mesh and kind. For each
+/// of them the view of the level requested last is kept.
 class HierarchyViews {
  public:
-  /// Null for shapes that are no triangle mesh and kinds that do not exist.
+  /// Null for shapes that are not triangle meshes, and for unknown kinds.
   const Hierarchy* find_or_make(const std::shared_ptr<const Shape>& shape, std::string_view kind);
   const HierarchyView* view(const std::shared_ptr<const Shape>& shape, std::string_view kind,
                             int level, bool with_pieces);
-  /// Forgets what belongs to shapes that are gone.
+  /// Drops entries whose shapes no longer exist.
   void prune();
   size_t size() const { return entries_.size(); }
 

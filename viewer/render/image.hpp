@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Eight bits a channel, sRGB, top row first, rows without padding.
+/// Eight bits per channel, sRGB, top row first, rows without padding.
 struct Image {
   int width = 0;
   int height = 0;
@@ -19,8 +19,8 @@ struct Image {
   }
 };
 
-/// True when every pixel has the same RGB within `tolerance` steps: the black frame that broken
-/// drivers give. An empty image is uniform.
+/// Whether all pixels have the same RGB within `tolerance` steps of 1/255, as in the black frame
+/// that broken drivers return. An empty image is uniform.
 bool is_uniform(const Image& image, int tolerance = 0);
 /// The same picture with 3 channels.
 Image without_alpha(const Image& image);

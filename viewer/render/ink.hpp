@@ -3,9 +3,9 @@
 
 namespace tumble {
 
-/// Colours of the meanings of a sketch: linear, for the world, whose ground is light.
+/// Linear colour of a kind of ink for sketches drawn in the scene, where the background is light.
 Vec3f ink_in_world(Ink ink);
-/// sRGB bytes, red lowest, for diagrams, whose ground is dark.
+/// The same for diagrams, whose background is dark: sRGB bytes, red lowest.
 uint32_t ink_on_plate(Ink ink, float opacity = 1);
 
 }  // namespace tumble

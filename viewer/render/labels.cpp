@@ -19,8 +19,8 @@ struct Measured {
     // Whole pixels: letters stay as sharp as they were baked.
     return {std::floor(x + dx + 0.5f), std::floor(y + dy + 0.5f), width, height};
   }
-  /// By rising distance, its own place first; of two that are as far the upper one, since what is
-  /// labelled is below.
+  /// Candidate offsets by increasing distance, the own position first; of two at equal distance the
+  /// upper one first, since the labelled object is below.
   std::array<LabelBox, 30> places() const {
     std::array<std::pair<float, LabelBox>, 30> sorted;
     size_t n = 0;

@@ -14,19 +14,20 @@ struct LabelBox {
   bool overlaps(const LabelBox& other) const;
 };
 
-/// Where each label stands, so that none covers another; nothing for one that is not in the picture
-/// or finds no room. Greedy placement over a fixed set of candidates (Christensen, Marks and
-/// Shieber 1995), in the order of the list: the free place next to the label's own, up to about its
-/// own size away. Labels at pixels stay where they are, and the others make way.
+/// Positions of labels so that none overlaps another; empty for a label that is outside the picture
+/// or finds no free position. Greedy placement over a fixed set of candidate positions
+/// (Christensen, Marks and Shieber 1995), in the order of the list: the free candidate nearest to
+/// the label's anchor, at most about the label's size away. Labels at pixels are placed first and
+/// never moved.
 std::vector<std::optional<LabelBox>> place_labels(const std::vector<TextLabel>& labels,
                                                   const FontAtlas& font, const Camera& camera,
                                                   int width, int height, float ui_scale);
 
-/// Puts the letters of the labels that have a place into `ui` (pixels), in the font's texture.
+/// Adds the glyphs of the placed labels to `ui` (pixels), in the font's texture.
 void add_labels(const std::vector<TextLabel>& labels, const FontAtlas& font, const Camera& camera,
                 int width, int height, float ui_scale, UiDrawList& ui);
 
-/// Width of a text in pixels at a line height.
+/// Width of a text [px] at a line height.
 float text_width(std::string_view text, const FontAtlas& font, float size);
 
 }  // namespace tumble

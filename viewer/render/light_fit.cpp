@@ -24,7 +24,7 @@ Aabb in_frame(const Mat3& rows, const Aabb& box) {
   return out;
 }
 
-/// The corners of what the camera sees, in light axes.
+/// Bounds, in light axes, of what the camera sees.
 Aabb view_in_frame(const Mat3& rows, const Mat4& clip_from_world) {
   const Mat4 world_from_clip = clip_from_world.inverse();
   Aabb out;

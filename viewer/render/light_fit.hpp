@@ -3,21 +3,21 @@
 
 namespace tumble {
 
-/// Where the shadow map looks, and how coarse it is.
+/// The view and resolution of the shadow map.
 struct LightFit {
-  Mat4 shadow_from_world = Mat4::Identity();  ///< to 0..1 in x, y and depth
-  Frustum volume{};                           ///< what may cast into it
-  double texel = 0;                           ///< [m] on a surface that faces the sun
-  bool empty = true;                          ///< nothing casts
+  Mat4 shadow_from_world = Mat4::Identity();  ///< maps the volume to 0..1 in x, y and depth
+  Frustum volume{};                           ///< contains everything that can cast into the map
+  double texel = 0;   ///< size of a texel on a surface that faces the sun [m]
+  bool empty = true;  ///< there are no casters
 };
 
-/// Fits an orthographic view along the sun to what casts shadows and can matter to the picture.
-/// Sizes come in steps of a quarter octave and the corner lies on whole texels, so that edges do
+/// Fits an orthographic view along the sun to the casters that can affect the picture. Sizes change
+/// in steps of a quarter octave, and the corner is snapped to whole texels, so that shadow edges do
 /// not crawl while bodies or camera move.
 LightFit fit_light(const Aabb& casters, const Vec3& to_sun, const Mat4& clip_from_world,
                    int resolution);
 
-/// The part of the ground plane that gets contact shade: x0, z0, width, depth [m].
+/// The part of the ground plane that receives contact shade: x0, z0, width, depth [m].
 struct ContactFit {
   double x0 = 0, z0 = 0, side = 1;
 };

@@ -5,26 +5,27 @@
 
 namespace tumble {
 
-/// Which particles of a liquid are near each other: those within `reach` spacings.
+/// Neighbour lists of the particles of a liquid: pairs within `reach` spacings.
 class LiquidNeighbours {
  public:
   static constexpr double reach = 2;
 
-  /// `x` are places [m], and stay where they are; `spacing` is that of particles at rest [m].
+  /// `x` are positions [m], which must outlive this object unchanged; `spacing` is that of
+  /// particles at rest [m].
   LiquidNeighbours(std::span<const Vec3> x, double spacing) : x_(x), spacing_(spacing) {
     known_ = spacing > 0 && lists_.update(x, {.reach = reach * spacing}, nullptr).ok();
   }
-  /// Not where a particle is nowhere, or there is none.
+  /// False if a position is not finite or there are no particles.
   bool known() const { return known_ && !x_.empty(); }
   double spacing() const { return spacing_; }
   std::span<const Vec3> x() const { return x_; }
   size_t size() const { return x_.size(); }
-  /// By place, an order in which what is near is near in memory.
+  /// The particle at a rank of a spatial order, in which near particles are near in memory.
   uint32_t particle(size_t place) const { return lists_.order()[place]; }
   uint32_t count(size_t place) const { return lists_.count(place); }
 
-  /// Calls f(j, distance over that of the farthest neighbours) for those of a particle that are not
-  /// at its own place.
+  /// Calls f(j, distance / reach) for the neighbours of the particle at a rank, except those at
+  /// exactly the same position.
   template <class F>
   void over(size_t place, const F& f) const {
     const Vec3& x = x_[particle(place)];

@@ -9,20 +9,21 @@
 namespace tumble {
 namespace {
 
-/// Neighbours of a particle deep inside: as many as cubes of a spacing fill the ball of reach.
+/// Number of neighbours in the interior: that of cubes with an edge of one spacing in a ball of
+/// radius `reach`.
 constexpr double all_neighbours =
     4 * det::pi / 3 * LiquidNeighbours::reach * LiquidNeighbours::reach * LiquidNeighbours::reach;
-/// A particle with less of them has a surface or a wall beside it. Half a spacing from a plane it
-/// has .68, one and a half spacings from it .96 of them [-].
+/// A particle with less than this share of the neighbours of the interior is near a surface or a
+/// wall. Half a spacing from a plane the share is 0.68, one and a half spacings from it 0.96 [-].
 constexpr double skin_share = 0.85;
-/// How far from a particle of the outermost layer of a cubic lattice the mean of its neighbours is,
-/// weighted by 1 - u^3, and how much farther for each unit that the particle is moved out of the
-/// layer: sums over the lattice; lengths over the reach [-].
+/// For a cubic lattice with a plane surface: distance from a particle of the outermost layer to the
+/// mean of its neighbours, weighted by 1 - u^3, and the change of that distance per displacement of
+/// the particle out of the layer. Sums over the lattice, lengths in units of the reach [-].
 constexpr double mean_of_outermost = 0.2221, mean_by_offset = 0.636;
-/// How much of a particle's distance to where it should be below the surface is taken away, as
-/// lambda of Yu and Turk [-].
+/// Share of a particle's distance from the estimated surface that is removed, lambda in Yu and Turk
+/// [-].
 constexpr double smoothing = 0.8;
-/// The shortest half axis over the longest [-].
+/// Least ratio of the shortest half axis to the longest [-].
 constexpr double most_flat = 0.35;
 
 struct Spread {

@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-/// Lines and points as three runs: those tested against depth, the faint copies of what lies
-/// behind, and those over everything.
+/// Lines or points in three runs: those tested against depth, the faint copies of their hidden
+/// parts, and those drawn over everything.
 template <class T>
 struct MarkRuns {
   std::vector<T> all;
@@ -14,7 +14,7 @@ struct MarkRuns {
 MarkRuns<GpuLine> line_runs(const std::vector<LineSegment>& lines);
 MarkRuns<GpuPoint> point_runs(const std::vector<PointMark>& points);
 
-/// sRGB bytes, red lowest, of a linear colour.
+/// The sRGB bytes, red lowest, of a linear colour.
 uint32_t rgba_bytes(const Vec4f& linear);
 
 }  // namespace tumble

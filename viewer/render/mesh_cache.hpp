@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Meshes on the device, by content.
+/// Vertex and index buffers on the device, by id (hash of the content) of the mesh.
 class MeshCache {
  public:
   struct Entry {

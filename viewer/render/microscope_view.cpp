@@ -58,7 +58,7 @@ const MicroscopeRecording* MicroscopeView::look(
   return recording();
 }
 
-/// A recording of another tick shows what is no longer there.
+/// A recording made for another tick would show bodies at outdated places.
 const MicroscopeRecording* MicroscopeView::take(
     const Frame& frame, const std::shared_ptr<const MicroscopeAnswer>& said) {
   if (said->tick != frame.tick) {

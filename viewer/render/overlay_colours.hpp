@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/math/types.hpp"
 
-/// Linear colours of what overlays draw; the legend (overlays.cpp) says what they mean.
+/// Linear colours of overlays; the legend (overlays.cpp) explains them.
 namespace tumble::overlay_colour {
 
 inline const Vec4f contact(1.0f, 0.85f, 0.1f, 1), overlap(1.0f, 0.1f, 0.05f, 1);

@@ -10,7 +10,7 @@ namespace tumble {
 
 struct Frame;
 
-/// What is drawn on top of the bodies to see how they are computed.
+/// Which debug overlays are drawn on top of the bodies.
 struct Overlays {
   bool contacts = false;
   bool normals = false;
@@ -27,39 +27,39 @@ struct Overlays {
   bool hierarchy = false;
   bool sensors = false;
 
-  /// Which volumes the hierarchy shows: kind of tree ("": that of the world), levels below its
+  /// Bounding volumes to show: kind of hierarchy ("": that of the world), and levels below its
   /// root.
   std::string hierarchy_kind;
   int hierarchy_level = 3;
-  /// Arrows of velocity, momentum and total force are so many times as long as usual.
+  /// Factor on the length of arrows of velocity, momentum and total force [-].
   double vector_length = 1;
 };
 
-/// What a colour of an overlay means.
+/// One line of the legend: a colour of an overlay and its meaning.
 struct LegendLine {
   Vec4f colour;  ///< linear
   std::string_view text;
-  bool (*there)(const Frame&) = nullptr;  ///< whether it can be in the picture; null: always
-  /// By what scale it is drawn; null: by none.
+  bool (*there)(const Frame&) = nullptr;  ///< whether it can occur in the picture; null: always
+  /// Text of the scale at which it is drawn; null: it has none.
   std::string (*scale)(const Frame&, const Overlays&) = nullptr;
 };
 
-/// One entry of the list of overlays: name on the command line and in panels, what it shows, and
-/// its switch, and what its colours mean (overlay_colours.hpp). One more overlay: a member above,
+/// One entry of the list of overlays: its name on the command line and in panels, what it shows,
+/// its switch, and what its colours mean (overlay_colours.hpp). To add an overlay: a member above,
 /// an entry in overlays.cpp, its lines in extract_overlays.cpp.
 struct OverlayEntry {
   std::string_view name;
   std::string_view doc;
   bool Overlays::*enabled;
-  std::vector<LegendLine> legend;  ///< empty where every colour is only different from the others
+  std::vector<LegendLine> legend;  ///< empty if the colours only tell things apart
 };
 const std::vector<OverlayEntry>& all_overlays();
 
-/// Kinds of hierarchies that have volumes to show, by name.
+/// Names of the kinds of hierarchies whose volumes can be drawn.
 const std::vector<std::string>& drawn_hierarchies();
 
-/// Reads "contacts,aabbs,hierarchy:obb:4"; an unknown name is an error that names what there is.
-/// After "hierarchy" may stand a kind, a level or both, each after a colon.
+/// Parses e.g. "contacts,aabbs,hierarchy:obb:4"; the error for an unknown name lists the known
+/// ones. After "hierarchy" may follow a kind, a level or both, each after a colon.
 Result<Overlays> parse_overlays(std::string_view comma_separated);
 
 }  // namespace tumble

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// The scale of the colours by which particles tell a quantity.
+/// The range of values for colouring particles by a quantity.
 NiceScale colour_scale(const ParticleFrame& particles);
 
 }  // namespace tumble

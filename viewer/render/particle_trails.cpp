@@ -8,9 +8,9 @@
 namespace tumble {
 namespace {
 
-/// Smooth enough for a parabola.
+/// Samples along a path: enough for a parabola to look smooth.
 constexpr double samples_of_path = 32;
-/// Lines that a renderer draws fluently, of one system.
+/// Number of lines of one system that a renderer still draws fluently.
 constexpr size_t most_lines = 200'000;
 constexpr float brightest_path = 0.7f;  ///< opacity right behind the particle
 constexpr float path_width = 1.5f;      ///< [px]
@@ -26,15 +26,16 @@ const Vec3* find_place(const Places& places, uint64_t id, size_t& at) {
   return at < places.ids.size() && places.ids[at] == id ? &places.x[at] : nullptr;
 }
 
-/// Of every so many-th particle paths are drawn: the least power of two with which they are not too
-/// many.
+/// Paths are drawn for every n-th particle; n is the least power of two with which there are not
+/// too many lines.
 uint64_t stride_for(size_t particles, size_t samples) {
   uint64_t stride = 1;
   while (particles / stride * samples > most_lines) stride *= 2;
   return stride;
 }
 
-/// Whether the straight way between two places is through a face of the box and not in it.
+/// Whether the particle left the periodic box through a face on the way, so that a straight line
+/// would cross the box.
 bool crosses(const PeriodicBox& box, const Vec3& a, const Vec3& b) {
   return box.any() && box.shortest(b - a) != b - a;
 }
@@ -62,7 +63,7 @@ void ParticleTrails::see(const Frame& frame) {
     const uint64_t every = ticks_between(seconds, frame);
     if (!samples.empty() && frame.tick / every <= samples.back().tick / every) continue;
     samples.push_back({frame.tick, frame.time, system->ids, system->x});
-    // The one before the reach begins is where the last line ends.
+    // One sample before the reach is kept: the oldest line ends there.
     while (samples.size() > 2 && samples[1].time < frame.time - seconds) samples.pop_front();
   }
 }

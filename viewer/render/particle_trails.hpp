@@ -7,14 +7,15 @@
 
 namespace tumble {
 
-/// The paths of the particles of systems whose look has a trail, drawn as lines that fade with age.
-/// Places are kept at every n-th tick, n fixed by trail and tick, so that what is drawn does not
-/// depend on when pictures are made.
+/// The paths of particles whose look has a trail, drawn as lines that fade with age. Positions are
+/// sampled at every n-th tick, with n depending only on the length of the trail and the tick, so
+/// that the drawing does not depend on when pictures are made.
 class ParticleTrails {
  public:
-  /// The next frame; see Trails::see().
+  /// Takes the next frame; see Trails::see().
   void see(const Frame& frame);
-  /// Lines up to the moment `s` of the way between two frames, the latest that were seen.
+  /// Adds the lines up to the fraction `s` of the way between two frames, which must be the latest
+  /// that see() was given.
   void draw(const Frame& from, const Frame& to, double s, RenderScene& out) const;
 
  private:

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// The targets of one picture size and quality, remade when either changes.
+/// The render targets for one picture size and quality, made anew when either changes.
 class PictureTargets {
  public:
   explicit PictureTargets(Device& device) : device_(device) {}
@@ -12,20 +12,22 @@ class PictureTargets {
   PictureTargets(const PictureTargets&) = delete;
   PictureTargets& operator=(const PictureTargets&) = delete;
 
-  /// The world is drawn with `resolution` times as many pixels each way, up to 1.
+  /// The world is drawn with `resolution` (at most 1) times as many pixels along each axis.
   Status prepare(int width, int height, float resolution, const QualityValues& quality);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Of the canvas.
+  /// Width of the canvas [px].
   int drawn_width() const { return drawn_width_; }
   int drawn_height() const { return drawn_height_; }
-  /// Drawn into: many samples, or fewer pixels than the picture has, or both.
+  /// The target that the world is drawn into: multisampled, or with fewer pixels than the picture,
+  /// or both.
   TargetId canvas() const { return canvas_ ? canvas_ : picture_; }
-  /// As many pixels as the canvas, one sample: the canvas itself unless that has many.
+  /// Single-sampled target with as many pixels as the canvas; the canvas itself if that is
+  /// single-sampled.
   TargetId averaged() const { return world_ ? world_ : canvas(); }
   bool is_reduced() const { return drawn_width_ != width_ || drawn_height_ != height_; }
-  TargetId picture() const { return picture_; }  ///< one sample, readable
+  TargetId picture() const { return picture_; }  ///< single-sampled, readable
   TargetId shadow() const { return shadow_; }
   TargetId contact(int i) const { return contact_[size_t(i)]; }
   TextureId shadow_map() const { return device_.depth_texture(shadow_); }

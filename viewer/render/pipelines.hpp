@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// For bodies: with closed surfaces, open ones, and balls that the shader finds.
+/// Pipelines for bodies: closed meshes, open ones, and balls drawn as impostors.
 struct BodyPipelines {
   PipelineId closed, two_sided, ball;
 };
@@ -14,8 +14,8 @@ struct BodyPipelines {
 /// Every pipeline of the renderer. Bindings: textures shadow_map, contact_map (or image, source);
 /// uniform blocks Frame (or Ui).
 struct Pipelines {
-  /// [0] cheap shading, [1] fine; of bodies then [0] plain, [1] with a pattern, as a shader of a
-  /// software renderer works for what it leaves out.
+  /// First index: [0] cheap shading, [1] fine. Second index for bodies: [0] plain, [1] with a
+  /// pattern. Two shaders, because a software renderer also pays for branches that are not taken.
   std::array<std::array<BodyPipelines, 2>, 2> bodies;
   std::array<PipelineId, 2> surface_blended;
   std::array<PipelineId, 2> sphere, sphere_blended;
@@ -24,17 +24,18 @@ struct Pipelines {
   PipelineId contact, sphere_contact, blur_x, blur_y;
   PipelineId enlarge;
   PipelineId ground_depth;
-  /// [0] behind what has been drawn, by depth; [1] under it, by its opacity.
+  /// [0] drawn behind the other surfaces by depth test, [1] blended under them by transmittance.
   std::array<PipelineId, 2> ground, ground_bare, sky;
   PipelineId line, line_hidden, line_over;
   PipelineId point, point_hidden, point_over;
   PipelineId ui;
-  PipelineId place;  ///< a finished picture as part of another
-  /// Of liquids and smoke: also the block Soft, textures after shadow_map as SoftPass gives them.
+  PipelineId place;  ///< draws a finished picture as a part of another one
+  /// For liquids and smoke; they also have the uniform block Soft, and after shadow_map the
+  /// textures that SoftPass binds.
   PipelineId veil_shade, veil_layer, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
       fluid_surface, smoke, smoke_cover;
 
-  /// Compiles all; on failure those already made are destroyed.
+  /// Compiles all shaders; on failure the pipelines already made are destroyed.
   static Result<Pipelines> create(Device& device, const std::filesystem::path& folder);
   void destroy(Device& device);
 };

@@ -16,7 +16,7 @@ struct PlateColours {
                             faint = 0xFFB6AC9Eu, accent = 0xFF6FB4F7u;
 };
 
-/// What the parts of a plate are laid out by [px].
+/// Measures of the layout of a plate [px].
 struct PlateMeasure {
   float width, height, text, margin, top;
 };

@@ -10,24 +10,24 @@
 
 namespace tumble {
 
-/// Words and a diagram laid over a picture: a caption along its lower edge, numbers at the top
-/// left, the diagram at the top right. Grows with the picture, so that it can be read at any size.
+/// Text and a diagram laid over a picture: a caption along its lower edge, numbers at the top left,
+/// the diagram at the top right. Sizes grow with the picture, so that it is readable at any size.
 struct Plate {
-  std::string heading;  ///< before the title: whose steps these are
+  std::string heading;  ///< before the title: the algorithm whose steps are shown
   std::string title;
   std::string counter;  ///< "3 / 12"
   std::string caption;
   std::vector<std::pair<std::string, std::string>> numbers;  ///< label and value
   Diagram diagram;
-  float top = 0;  ///< numbers and diagram stand below this: something else is above [px]
+  float top = 0;  ///< numbers and diagram start below this, since something else is above [px]
 };
 
-/// Puts a plate into `ui` (pixels), in the font's texture.
+/// Adds a plate to `ui` (pixels), drawn with the font's texture.
 void add_plate(const Plate& plate, const FontAtlas& font, int width, int height, float ui_scale,
                UiDrawList& ui);
 
-/// A text cut into lines no wider than `width` [px] at a line height; words are kept whole where
-/// they fit.
+/// Breaks a text into lines no wider than `width` [px] at a line height `size` [px]; words longer
+/// than a line are broken too.
 std::vector<std::string> wrapped(std::string_view text, const FontAtlas& font, float size,
                                  float width);
 

@@ -15,13 +15,13 @@
 
 namespace tumble {
 
-// One picture as plain flat data: the only thing the renderer knows. Lengths in metres, world axes,
-// Y up; colours are linear RGB(A) in 0..1 unless a name says srgb.
+// One picture as flat data: all that the renderer knows. Lengths in metres, world axes, Y up;
+// colours are linear RGB(A) in 0..1 unless a name says srgb.
 
 /// Linear colour of a web colour such as 0xE8743B.
 Vec3f linear_from_srgb(uint32_t rgb);
 
-/// How a surface is painted, in body coordinates, so that turning can be seen.
+/// Two-tone pattern of a surface, in body coordinates, which makes rotation visible.
 enum class Pattern : uint8_t {
   plain,
   quarters,  ///< octants of the body frame in two tones (balls, rollers)
@@ -63,17 +63,18 @@ struct MeshInstance {
 struct SphereInstance {
   Vec3f centre = Vec3f::Zero();
   float radius = 0.05f;
-  /// Linear, and opacity; beyond 1 it is the light that an opaque one gives off, in units of its
-  /// colour, plus 1.
+  /// Linear colour, and opacity. An opacity above 1 means opaque and self-luminous: the part above
+  /// 1 is the emitted light in units of the colour.
   Vec4f colour = Vec4f(0.6f, 0.6f, 0.6f, 1);
 };
 
-/// Finite and with a radius; others are left out of pictures and bounds.
+/// Whether the sphere is finite and has a positive radius; others are left out of pictures and
+/// bounds.
 bool drawable(const SphereInstance& sphere);
 bool drawable(const FluidParticle& particle);
 bool drawable(const SmokePuff& puff);
 
-/// What happens to debug drawing behind surfaces.
+/// What happens to debug lines and points behind surfaces.
 enum class Occlusion : uint8_t {
   hidden,  ///< not drawn
   faint,   ///< drawn at a quarter of its opacity
@@ -94,17 +95,16 @@ struct PointMark {
   Occlusion occlusion = Occlusion::faint;
 };
 
-/// Text at a world point (always in front), or at a pixel of the picture.
+/// Text at a world point (always drawn in front), or at a pixel of the picture.
 struct TextLabel {
   std::string text;  ///< UTF-8
   bool in_world = true;
   Vec3f x = Vec3f::Zero();  ///< in_world: world point; else (pixels right, pixels down, unused)
   Vec4f colour = Vec4f(1, 1, 1, 1);
-  float size = 13;  ///< line height [px], times ui_scale
-  Vec3f anchor =
-      Vec3f(0, 0, 0);  ///< part of the text's box at the point: 0,0 top left, .5,.5 centre
-  bool shadow = true;  ///< dark edge for contrast
-  float plate = 0;     ///< opacity of a dark plate behind it, for letters before anything
+  float size = 13;                ///< line height [px], times ui_scale
+  Vec3f anchor = Vec3f(0, 0, 0);  ///< point of the text's box at x: 0,0 top left, .5,.5 centre
+  bool shadow = true;             ///< dark edge for contrast
+  float plate = 0;  ///< opacity of a dark rectangle behind it, for legibility on any background
 };
 
 struct Sun {
@@ -130,16 +130,18 @@ struct Ground {
   double grid_spacing = 1;  ///< [m]; every tenth line is stronger
 };
 
-/// Fixed presets, so that a picture does not depend on the machine that draws it.
+/// Presets of quality. They are fixed, so that a picture does not depend on the machine that draws
+/// it.
 enum class Quality : uint8_t {
   draft,     ///< no anti-aliasing, small hard shadows, no contact shade
-  standard,  ///< 4 samples, 1024 shadow: the software renderer's best
-  high,      ///< 4 samples, 2048 shadow, wider filter
+  standard,  ///< 4 samples, 1024 shadow map: the best that a software renderer draws in reasonable
+             ///< time
+  high,      ///< 4 samples, 2048 shadow map, wider filter
 };
 
-/// "draft", "standard", "high", as the enumeration has them.
+/// "draft", "standard", "high", in the order of the enumeration.
 std::span<const std::string_view> quality_names();
-/// An unknown name is an error that says what there is.
+/// The error for an unknown name lists the known ones.
 Result<Quality> parse_quality(std::string_view name);
 
 struct RenderScene {
@@ -151,8 +153,8 @@ struct RenderScene {
   std::vector<PointMark> points;
   std::vector<TextLabel> texts;
   std::vector<ColourLegend> legends;
-  /// Where legends are, what else lies over the picture being elsewhere [px: left, top, right,
-  /// bottom]; all of the picture unless given.
+  /// The area free for legends, if other things lie over the rest [px: left, top, right, bottom];
+  /// without it the whole picture.
   std::optional<std::array<float, 4>> legend_area;
   std::optional<Plate> plate;
   Camera camera;
@@ -160,36 +162,36 @@ struct RenderScene {
   Sky sky;
   Ground ground;
   float exposure = 1;
-  std::optional<Vec3f> haze_colour;  ///< instead of the sky's at the horizon
-  float haze = 1;  ///< 0: clear to the horizon; 1: distant ground melts into the sky
+  std::optional<Vec3f> haze_colour;  ///< instead of the sky's colour at the horizon
+  float haze = 1;  ///< 0: clear to the horizon; 1: distant ground fades into the sky
   Quality quality = Quality::standard;
   Vec4f selection_colour = Vec4f(1.0f, 0.55f, 0.05f, 1);
-  /// Pixels that the world is drawn with for one of the picture, each way, up to 1: the rest is
-  /// enlarged. Words, legends and panels always have all pixels.
+  /// Ratio, at most 1, of the pixels along each axis with which the world is drawn to those of the
+  /// picture; the result is enlarged. Text, legends and panels are always drawn with all pixels.
   float resolution = 1;
-  float ui_scale = 1;  ///< of lines, points and text (HiDPI)
+  float ui_scale = 1;  ///< factor on widths of lines, points and text (HiDPI)
   UiDrawList ui;
 
   /// Whether there is any liquid or smoke.
   bool has_soft_matter() const { return !fluids.empty() || !smoke.empty(); }
-  /// Empties the lists and keeps their memory, camera and look.
+  /// Empties the lists but keeps their memory, the camera and the look.
   void clear_content();
-  /// Is seen as another one is: camera, light, ground, quality, but none of its content.
+  /// Takes over camera, light, ground and quality of another scene, but none of its contents.
   void look_like(const RenderScene& other);
 };
 
-/// World bounds; empty for what is not finite or has no mesh.
+/// World bounds; empty for an instance that is not finite or has no mesh.
 Aabb bounds_of(const MeshInstance& instance);
 /// All of space.
 Aabb everywhere();
-/// Of the spheres with their centres within a region.
+/// Bounds of the spheres whose centres are within a region.
 Aabb bounds_of(const std::vector<SphereInstance>& spheres, const Aabb& within = everywhere());
-/// Of liquids and smoke.
+/// Bounds of liquids and smoke within a region.
 Aabb soft_bounds(const RenderScene& scene, const Aabb& within = everywhere());
-/// World bounds of the parts of instances, spheres, liquids and smoke that lie within a region (not
-/// of lines, text or the ground).
+/// World bounds of the parts of instances, spheres, liquids and smoke that lie within a region.
+/// Lines, text and the ground do not count.
 Aabb content_bounds(const RenderScene& scene, const Aabb& within = everywhere());
-/// The part of a box within a region; empty when there is none.
+/// The intersection of a box with a region, which may be empty.
 Aabb part_within(const Aabb& box, const Aabb& region);
 
 }  // namespace tumble

@@ -53,13 +53,13 @@ class RendererImpl final : public Renderer {
   }
 
  private:
-  /// What read_back() and present() take.
+  /// The picture that read_back() and present() use.
   struct Finished {
     TargetId target;
     int width = 0, height = 0;  ///< [px]
   };
 
-  /// The world and its words, into targets that were prepared.
+  /// Draws the world and its text into prepared targets.
   Status draw_world(const RenderScene& scene, PictureTargets& targets, FrameReport& report);
   Status prepare_whole(int width, int height);
   Result<FrameReport> finish_picture(const UiDrawList& panels, const Finished& picture,
@@ -73,8 +73,8 @@ class RendererImpl final : public Renderer {
 
   Device& device_;
   Pipelines pipelines_;
-  PictureTargets targets_, beside_;  ///< of the picture, or the left and the right one
-  Finished whole_;                   ///< of both beside each other
+  PictureTargets targets_, beside_;  ///< for the single or left picture, and for the right one
+  Finished whole_;                   ///< the two pictures beside each other
   Finished shown_;
   UiPass ui_;
   WorldPass world_;
@@ -112,7 +112,7 @@ Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, in
   return finish_picture(scene.ui, {targets_.picture(), width, height}, report);
 }
 
-/// A target of the picture that is put together of two.
+/// Makes the target in which two pictures are put together.
 Status RendererImpl::prepare_whole(int width, int height) {
   if (whole_.target && width == whole_.width && height == whole_.height) return {};
   if (whole_.target) device_.destroy(whole_.target);

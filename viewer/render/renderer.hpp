@@ -17,11 +17,11 @@ struct FrameReport {
   uint32_t culled_instances = 0;
 };
 
-/// Where two pictures of equal width stand in one, each as high as that [px].
+/// Layout of two pictures of equal width beside each other in one, each with its full height [px].
 struct SideBySide {
-  int left = 0, right = 0;  ///< their left edges
-  int width = 1;            ///< of each
-  /// Of what neither covers: red, green, blue as the picture has them.
+  int left = 0, right = 0;  ///< x of their left edges
+  int width = 1;            ///< width of each
+  /// Colour of the parts that neither covers, sRGB 0..1.
   std::array<float, 3> around = {0.02f, 0.022f, 0.025f};
 };
 
@@ -36,25 +36,26 @@ class Renderer {
 
   /// Replaces the font of labels and of UI texture 0.
   virtual void set_font(const FontAtlas& font) = 0;
-  /// A picture for the UI (RGBA), to be named in UiDraw::texture.
+  /// Adds an image (RGBA) that UiDraw::texture can name.
   virtual UiTextureId add_ui_texture(const Image& image) = 0;
 
-  /// Draws into the renderer's own picture of width x height pixels. Fails when a target cannot be
-  /// made or the size is not in 1..16384. Fails with ErrorCode::parse when shaders do not link:
-  /// then the picture is there without what they draw.
+  /// Draws into the renderer's own picture of width x height pixels. Fails if a target cannot be
+  /// made or the size is not in 1..16384. Fails with ErrorCode::parse if shaders do not link: the
+  /// picture is then complete except for what they draw.
   virtual Result<FrameReport> render(const RenderScene& scene, int width, int height) = 0;
-  /// The same with two pictures beside each other; the panels are the left one's, over all of it.
+  /// The same with two pictures beside each other; the panels of `left` are drawn over the whole.
   virtual Result<FrameReport> render_beside(const RenderScene& left, const RenderScene& right,
                                             const SideBySide& places, int width, int height) = 0;
-  /// The last picture, RGBA. `image` keeps its memory when it fits.
+  /// Reads the last picture as RGBA. `image` keeps its memory if the size fits.
   virtual Status read_back(Image& image) = 0;
-  /// The last picture onto the window.
+  /// Shows the last picture in the window.
   virtual void present() = 0;
 
-  /// The next picture is drawn whole, also what stands still: see Device::forget_contents().
+  /// The next picture is drawn completely, even if nothing has changed: see
+  /// Device::forget_contents().
   virtual void draw_anew() = 0;
 
-  /// Frees meshes not drawn for `frames` pictures.
+  /// Frees meshes that were not drawn in the last `frames` pictures.
   virtual void forget_unused_meshes(uint32_t frames = 600) = 0;
 };
 

@@ -6,8 +6,9 @@
 
 namespace tumble {
 
-/// A file or folder that comes with Tumble, such as "shaders"; found where scenes are
-/// (engine/scene/resources.hpp), never by the working directory. Fails naming what was tried.
+/// The path of a file or folder that comes with Tumble, such as "shaders"; it is found where scenes
+/// are (engine/scene/resources.hpp), independently of the working directory. The error lists the
+/// places that were tried.
 Result<std::filesystem::path> resource_path(std::string_view relative);
 
 }  // namespace tumble

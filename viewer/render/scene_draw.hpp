@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// The debug drawing of the engine as lines and points of a picture. Text is left out.
+/// Turns debug drawing of the engine into lines and points of a picture. Text is left out.
 class SceneDraw final : public DebugDraw {
  public:
   explicit SceneDraw(RenderScene& out, float line_width = 1.5f)

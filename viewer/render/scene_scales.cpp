@@ -33,7 +33,7 @@ double reach_of(const Vec3& from, const Aabb& box) {
   return (box.centre() - from).norm() + 0.5 * box.extent().norm();
 }
 
-/// How near the nearer half of the boxes is to a point [m].
+/// Median distance of the boxes from a point [m].
 double typical_reach(const Vec3& from, std::span<const Aabb> boxes, std::vector<double>& reaches) {
   reaches.clear();
   for (const Aabb& box : boxes) reaches.push_back(reach_of(from, box));
@@ -44,8 +44,8 @@ double typical_reach(const Vec3& from, std::span<const Aabb> boxes, std::vector<
 
 }  // namespace
 
-// The box from which the nearer half of all is nearest (of a few that are tried) stands in the
-// midst of most of them, however far away the others are: a mean would not.
+// The box with the least median distance to the others, of a few that are tried, is in the midst of
+// most of them, no matter how far the rest is away; the mean position would not be.
 Aabb bounds_of_most(std::span<const Aabb> boxes) {
   constexpr size_t tried = 32;
   std::vector<Aabb> finite;

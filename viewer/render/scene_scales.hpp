@@ -5,16 +5,16 @@
 
 namespace tumble {
 
-/// Typical radius of a dynamic body [m], so that arrows suit marbles and bridges alike: the median;
-/// half a metre where there are none.
+/// Median radius of the dynamic bodies [m], half a metre if there are none; arrows are scaled by
+/// it, so that they suit marbles and bridges alike.
 double typical_size(const Frame& frame);
 
-/// What is this many times farther away than most of the others would, seen with them, make them a
-/// dot of three pixels: it has flown away.
+/// A body counts as flown away if it is this many times farther off than most others: a view of all
+/// would show the others as dots of about three pixels [-].
 constexpr double flown_away = 300;
 
-/// The union of the boxes without those that have flown away, or that are so large; of what is not
-/// finite nothing. With few boxes most are the small and near ones.
+/// The union of the boxes, except those that have flown away or are as large as that; boxes that
+/// are not finite are ignored. "Most" of few boxes are the small and near ones.
 Aabb bounds_of_most(std::span<const Aabb> boxes);
 
 }  // namespace tumble

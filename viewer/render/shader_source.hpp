@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// The text of a shader with its `#include "file"` lines replaced by the files beside it. Fails
-/// naming the file that cannot be read, or that includes itself.
+/// The text of a shader with each `#include "file"` replaced by that file of the same folder. Fails
+/// for a file that cannot be read or includes itself, and names it.
 Result<std::string> load_shader(const std::filesystem::path& file);
 
 }  // namespace tumble

@@ -54,7 +54,7 @@ float density(const Vec3f& x, uint32_t seed) {
 
 struct Column {
   float alpha = 0;
-  float height = 0;  ///< where light that comes from it left it on the average, -1..1
+  float height = 0;  ///< mean height from which light leaves it towards the eye, -1..1
 };
 
 Column column(float x, float y, uint32_t seed) {

@@ -4,11 +4,10 @@
 
 namespace tumble {
 
-/// Pictures of four puffs of smoke, two by two: RGB says which way the puff bulges there (right,
-/// up, towards the eye; -1..1 as 0..255), A how dense it is. Made of noise, the same on every
-/// machine.
+/// Atlas of 2 x 2 puffs of smoke: RGB is a normal vector (right, up, towards the eye; -1..1 as
+/// 0..255), A the density. Made of procedural noise, identical on every machine.
 struct PuffAtlas {
-  int size = 0;  ///< [px] each way
+  int size = 0;  ///< width and height [px]
   std::vector<uint32_t> texels;
 };
 PuffAtlas make_puff_atlas();

@@ -8,12 +8,12 @@
 namespace tumble {
 namespace {
 
-/// In radii of a ball: how far around a pixel the surface is smoothed, which distances take part in
-/// that, and how far behind the rest counts as.
+/// In radii of a ball: the reach of the surface's smoothing around a pixel, the range of distances
+/// that take part in it, and the distance behind it that stands for everything deeper.
 constexpr float smoothing_reach = 2.6f, narrow_range = 5, behind_range = 1;
 
 struct SmoothingCost {
-  int rounds;        ///< each across and up
+  int rounds;        ///< each consists of a horizontal and a vertical pass
   float most_reach;  ///< [px]
 };
 SmoothingCost smoothing_cost(Quality quality) {
@@ -34,7 +34,8 @@ std::array<float, 16> floats_of(const Mat4& m) {
   return out;
 }
 
-/// The texels that touch a part of a picture, in one of fewer that stand for `scale` pixels each.
+/// The texels that a part of a picture touches in a target with `scale` pixels of the picture per
+/// texel, each way.
 ScissorRect reduced(const ScissorRect& part, int height, int scale) {
   const auto up = [scale](int pixels) { return (pixels + scale - 1) / scale; };
   const int low = height - part.y - part.height, high = height - part.y;
@@ -129,7 +130,7 @@ void SoftPass::plan(const RenderScene& scene, const FrameSetup& setup) {
   plan_shade(scene, setup);
   smoke_puffs_ = plan_smoke(scene, setup.view, veil_);
   SmokeShade shade;
-  // With liquids shade has a colour, and is laid over the canvas.
+  // With liquids the shade is coloured, and is blended over the canvas.
   shade.falls = shade_area_ && scene.fluids.empty();
   if (shade.falls) {
     const auto& sun = setup.uniforms.to_sun;

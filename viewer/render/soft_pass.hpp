@@ -5,18 +5,20 @@
 
 namespace tumble {
 
-/// Draws liquids and smoke. What is solid has been drawn into the canvas before, and its depth, as
-/// far as it is needed, into a target of one sample; then
-///   the shade that liquids cast is laid over the canvas where it can fall (veil_shade),
-///   the canvas is copied, as it is seen through liquids,
-///   of each liquid: its balls' distance (fluid_depth), that smoothed (narrow_range_x, _y), how
-///   much
-///     of it there is (fluid_thickness, half size), and the surface onto the canvas
-///     (fluid_surface),
-///   smoke, far to near, into a target of its own (smoke), at half size unless the quality is high:
-///     it is soft, and overlaps itself most of all that is drawn; where there are no liquids, the
-///     shade that it casts as its first layer (veil_layer),
-///   after other see-through things, by the renderer: that smoke over the canvas (smoke_cover).
+/// Draws liquids and smoke. Before, solid surfaces have been drawn into the canvas, and their
+/// depth, where it is needed, into a single-sampled target. Then:
+///   1. the shade that liquids cast is blended over the canvas where it can fall (veil_shade);
+///   2. the canvas is copied, to be seen refracted through liquids;
+///   3. for each liquid: the depth of its balls (fluid_depth), which is smoothed (narrow_range_x,
+///   _y),
+///      the thickness of the liquid (fluid_thickness, half size), and the surface onto the canvas
+///      (fluid_surface);
+///   4. smoke, far to near, into a target of its own (smoke), at half size unless the quality is
+///   high,
+///      since smoke is smooth and has the most overdraw; in scenes without liquids, the shade that
+///      smoke casts is the first layer of that target (veil_layer);
+///   5. after other transparent things, the renderer blends that target over the canvas
+///   (smoke_cover).
 class SoftPass {
  public:
   SoftPass(Device& device, const Pipelines& pipelines);
@@ -25,19 +27,22 @@ class SoftPass {
   SoftPass& operator=(const SoftPass&) = delete;
 
   Status prepare(int width, int height, Quality quality);
-  /// Where they are in this picture, and which light they leave.
+  /// Determines where liquids and smoke are in this picture, and the light of the sun that they
+  /// leave (SunVeil).
   void plan(const RenderScene& scene, const FrameSetup& setup);
-  /// Of the picture: hold smoke and its shade.
+  /// Parts of the picture that contain smoke and its shade.
   std::span<const ScissorRect> smoke_places() const { return smoke_parts_; }
-  /// Has to hold the depth of what is solid where smoke is, with liquids everywhere.
+  /// The target that must hold the depth of solid surfaces: where there is smoke, or everywhere if
+  /// there are liquids.
   TargetId solid() const { return solid_; }
-  /// Outside a pass. `base`: a call with the frame's constants and the shadow map as its first
-  /// texture.
+  /// Must be called outside a pass. `base`: a draw call with the constants of the frame, and the
+  /// shadow map as its first texture.
   void draw_liquids(const RenderScene& scene, const FrameSetup& setup, TargetId canvas,
                     const DrawCall& base);
-  /// Likewise, after draw_liquids of the same picture.
+  /// Must be called outside a pass too, after draw_liquids of the same picture.
   void draw_smoke(const RenderScene& scene, const DrawCall& base);
-  /// Lays it over the canvas, within the pass that draws into that.
+  /// Composites the smoke over the canvas; must be called within the pass that draws into the
+  /// canvas.
   void cover_with_smoke(const DrawCall& base);
 
  private:
@@ -53,10 +58,10 @@ class SoftPass {
   Device& device_;
   const Pipelines& pipelines_;
   int width_ = 0, height_ = 0;
-  int smoke_scale_ = 1;  ///< pixels of the picture that one of the smoke's stands for, each way
+  int smoke_scale_ = 1;  ///< pixels of the picture per pixel of the smoke target, along each axis
   TargetId solid_, behind_, front_, other_, thickness_, smoke_;
-  std::optional<ScissorRect> shade_area_;  ///< of the picture, that shade can fall into
-  std::vector<ScissorRect> smoke_parts_;   ///< of the picture, that smoke and its shade are in
+  std::optional<ScissorRect> shade_area_;  ///< part of the picture where shade can fall
+  std::vector<ScissorRect> smoke_parts_;   ///< parts of the picture with smoke or its shade
   std::vector<GpuPuff> smoke_puffs_;
   TextureId veil_texture_, puffs_;
   BufferId balls_, puff_instances_, uniforms_;

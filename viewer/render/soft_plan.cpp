@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Smaller ones are no more than a dot [px].
+/// Smaller balls and puffs would be no more than a dot and are left out [px].
 constexpr double least_ball = 0.2, least_puff = 0.5;
 
 template <class Ball>
@@ -20,8 +20,8 @@ bool in_picture(const Ball& ball, const ViewSetup& view, const Frustum& frustum,
          r * view.pixels_per_radian > least * (x - view.eye).dot(view.forward);
 }
 
-/// A rectangle of the picture in pixels from its lower left corner, made whole and counted from the
-/// top as scissors are.
+/// Rounds a rectangle, given in pixels from the lower left corner of the picture, outwards to whole
+/// pixels counted from the top, as scissors need.
 ScissorRect scissor_of(float left, float right, float low, float high, int width, int height) {
   const auto pixel = [](float x, int most) { return int(std::clamp(x, 0.f, float(most))); };
   const int x0 = pixel(left - 1, width - 1), x1 = pixel(right + 2, width);
@@ -29,9 +29,9 @@ ScissorRect scissor_of(float left, float right, float low, float high, int width
   return {x0, height - y1, std::max(x1 - x0, 1), std::max(y1 - y0, 1)};
 }
 
-/// What a texel of smoke, of two pixels, and filters add to it [px].
+/// Widening by a texel of smoke (two pixels) and by filters [px].
 constexpr double smoke_rim = 5;
-/// Pieces of the way of a shade, each in a rectangle.
+/// The path of a puff's shade is covered by this many rectangles.
 constexpr int shade_pieces = 6;
 
 class SmokePartsFinder {
@@ -40,10 +40,11 @@ class SmokePartsFinder {
       : view_(view), raster_(view.width, view.height) {}
 
   void add(const Vec3& centre, double radius) { add_between(centre, centre, radius); }
-  /// Down from the puff, away from the sun, to where nothing is any more.
+  /// Marks the path of the shade, away from the sun, down to the lowest height of the scene.
   void add_shade(const SmokePuff& puff, const SmokeShade& shade) {
     const Vec3 x = puff.centre.cast<double>();
-    if (!(shade.to_sun.y() > 0)) return raster_.mark_all();  // it goes up, and has no end
+    // The sun is below the horizon: the shade goes up without end.
+    if (!(shade.to_sun.y() > 0)) return raster_.mark_all();
     const double radius = double(puff.radius) + shade.blur;
     const double way = std::max(x.y() - shade.lowest, 0.0) / shade.to_sun.y();
     for (int i = 0; i < shade_pieces; ++i)
@@ -53,7 +54,7 @@ class SmokePartsFinder {
   std::vector<ScissorRect> parts() const { return raster_.rectangles(); }
 
  private:
-  /// All balls with centres on a line.
+  /// Marks the balls with centres on a line segment.
   void add_between(const Vec3& a, const Vec3& b, double radius) {
     if ((a - view_.eye).dot(view_.forward) < -radius &&
         (b - view_.eye).dot(view_.forward) < -radius)
@@ -71,7 +72,7 @@ class SmokePartsFinder {
   CellRaster raster_;
 };
 
-/// What discs cover of a picture.
+/// Bounding rectangle of discs in a picture.
 ScissorRect area_of(const std::vector<ProjectedDisc>& discs, int width, int height) {
   float left = float(width), right = 0, low = float(height), high = 0;
   for (const ProjectedDisc& d : discs) {
@@ -130,7 +131,7 @@ LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
 std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, double lowest,
                                        const ViewSetup& view) {
   const ScissorRect all{0, 0, view.width, view.height};
-  if (!(to_sun.y() > 0)) return all;  // the veil's shade goes up, and has no end
+  if (!(to_sun.y() > 0)) return all;  // the sun is below the horizon: the shade goes up without end
   const Mat4 world_from_veil = veil.veil_from_world.inverse();
   const auto place = [&](double u, double v, double depth) {
     return (world_from_veil * Vec4(u, v, depth, 1)).head<3>();

@@ -6,16 +6,16 @@
 namespace tumble {
 
 /// The particles of a liquid that the camera sees, three equal vertices each: first those that no
-/// other stands before, then the rest of those in the picture.
+/// other particle hides, then the others within the picture.
 struct LiquidPlan {
-  uint32_t front = 0, all = 0;  ///< numbers of particles
-  ScissorRect area;             ///< of the picture, that they are within
+  uint32_t front = 0, all = 0;  ///< number of particles in front, and of all
+  ScissorRect area;             ///< part of the picture that contains them
 };
 LiquidPlan plan_liquid(const FluidSurface& fluid, const ViewSetup& view,
                        std::vector<GpuFluidParticle>& vertices);
 
-/// The part of the picture in which the shade of a veil can fall, when nothing is below the height
-/// `lowest`; none where that is out of sight.
+/// The part of the picture where the shade of a veil can fall, given that nothing lies below the
+/// height `lowest` [m]; empty if none of it is in view.
 std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, double lowest,
                                        const ViewSetup& view);
 
@@ -23,14 +23,14 @@ std::optional<ScissorRect> shaded_area(const SunVeil& veil, const Vec3& to_sun, 
 std::vector<GpuPuff> plan_smoke(const RenderScene& scene, const ViewSetup& view,
                                 const SunVeil& veil);
 
-/// The shade that smoke casts alone.
+/// How far the shade of smoke reaches in a scene without liquids.
 struct SmokeShade {
   bool falls = false;
   Vec3 to_sun = Vec3::UnitY();
   double lowest = 0;  ///< nothing is below this height [m]
-  double blur = 0;    ///< what the raster of the veil adds to a puff's radius [m]
+  double blur = 0;    ///< widening of a puff's shade by the cells of the veil [m]
 };
-/// Parts of the picture that puffs and their shade are within, without overlap.
+/// Disjoint parts of the picture that contain the puffs and their shade.
 std::vector<ScissorRect> smoke_parts(const RenderScene& scene, const std::vector<GpuPuff>& puffs,
                                      const SmokeShade& shade, const ViewSetup& view);
 

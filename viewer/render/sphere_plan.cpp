@@ -9,15 +9,16 @@
 namespace tumble {
 namespace {
 
-/// Which draws a sphere takes part in. In this order each draw's spheres are neighbours: seen ones
-/// first, casters from the second on, those near the ground in the middle of the casters.
+/// The draws that a sphere takes part in. Sorted in this order, the spheres of each draw are
+/// contiguous: visible ones first, casters from the second kind on, those near the ground in the
+/// middle of the casters.
 enum class Role : uint8_t { seen, seen_casts, seen_low, low, casts, none };
 constexpr size_t roles = 5;
 
-/// Discs wider than this [px] are looked at in a coarser raster.
+/// Discs wider than this [px] are culled in a coarser raster.
 constexpr float fine_radius = 8;
 
-/// What one sphere is for the two views.
+/// A sphere in the two views (camera and sun).
 struct Sight {
   uint32_t source;
   double depth;  ///< of the centre, along the view [m]
@@ -67,8 +68,8 @@ class Sorter {
             s.radius * texels + 0.05f,        float(p.z())};
   }
 
-  /// Clears `flag` of those that this view cannot see for others. Those near the ground stay among
-  /// the casters, as they shade it from below.
+  /// Clears `flag` for those that other spheres hide in this view. Spheres near the ground remain
+  /// casters, since they darken the ground below them.
   void hide(std::vector<Sight>& sights, bool Sight::*flag,
             ProjectedDisc (Sorter::*disc_of)(const Sight&) const, int width, int height) {
     std::vector<uint32_t> which;
@@ -109,7 +110,7 @@ void put(DrawPlan& plan, uint32_t place, const SphereInstance& s) {
   for (uint32_t k = 0; k < 3; ++k) plan.sphere_vertices[3 * place + k] = g;
 }
 
-/// Cells that are covered, or touched, as a whole.
+/// Converts discs to coarser cells: covered means wholly covered, touched means partly.
 void coarsen(std::vector<ProjectedDisc>& discs, float by) {
   for (ProjectedDisc& d : discs) {
     d.x /= by;

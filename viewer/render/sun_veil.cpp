@@ -10,10 +10,10 @@
 namespace tumble {
 namespace {
 
-/// Light that smoke takes out of the sun's path is mostly thrown forwards, and comes through all
-/// the same: share of a puff's opacity that shades what is behind it [-].
+/// Share of a puff's opacity that takes light away from what is behind it. The rest is scattered,
+/// mostly forwards, and gets through [-].
 constexpr float smoke_shade = 0.45f;
-/// Of a liquid's shadow, besides what it absorbs: what its surface mirrors and bends away [-].
+/// Loss of light at the surface of a liquid by reflection and refraction, besides absorption [-].
 constexpr float surface_loss = 0.25f;
 constexpr float no_depth = 1;
 
@@ -47,7 +47,7 @@ class VeilMaker {
   }
   bool within(const Vec3f& centre) const { return region_.contains(centre.cast<double>()); }
 
-  /// The raster around all, with a rim that nothing reaches.
+  /// Fits the raster around everything, with an empty rim.
   bool fit() {
     Aabb box;
     double widest = 0;
@@ -149,7 +149,7 @@ class VeilMaker {
   const Aabb& region_;
   int size_;
   SunVeil& veil_;
-  Vec3 axis_[3];  ///< of the raster, and away from the sun
+  Vec3 axis_[3];  ///< axes of the raster, and the direction away from the sun
   Vec3 low_ = Vec3::Zero();
   double cells_per_metre_ = 1;
   std::vector<Vec3f> left_;

@@ -6,23 +6,24 @@
 
 namespace tumble {
 
-/// What liquids and smoke leave of the light of the sun, as seen from it: a raster in which every
-/// cell has the colour that is left behind all of them, and where the first of them begins.
-/// Computed without a graphics device, particle by particle; smoke from the sun outwards, so that
-/// each puff knows what the ones before it have left.
+/// Transmittance of liquids and smoke for sunlight, as a raster perpendicular to the sun: every
+/// cell has the colour of the light that remains behind all of them, and the depth where the first
+/// begins. Computed on the CPU, particle by particle; smoke in order from the sun, so that each
+/// puff knows how much light reaches it.
 struct SunVeil {
-  Mat4 veil_from_world = Mat4::Identity();  ///< to 0..1 in the raster and in depth from the sun
-  double depth = 1;                         ///< from 0 to 1 [m]
-  int size = 0;                             ///< cells each way; 0: there is no veil
-  std::vector<uint32_t> cells;              ///< RGBA bytes: colour left, depth of the first
-  std::vector<float> smoke_light;           ///< by puff: share of the sun that reaches it, 0..1
+  /// Maps the veil to 0..1 in the raster and in depth from the sun.
+  Mat4 veil_from_world = Mat4::Identity();
+  double depth = 1;                ///< length that depth 0..1 stands for [m]
+  int size = 0;                    ///< cells along each side; 0: there is no veil
+  std::vector<uint32_t> cells;     ///< RGBA bytes: transmitted colour, depth of the first
+  std::vector<float> smoke_light;  ///< by puff: share of the sunlight that reaches it, 0..1
 };
 
-/// `region`: what is beyond it is left out. Keeps the memory of `veil`.
+/// Whatever is outside of `region` is left out. Reuses the memory of `veil`.
 void make_sun_veil(const RenderScene& scene, const Vec3& to_sun, const Aabb& region, int size,
                    SunVeil& veil);
 
-/// By how much light weakens on a metre of a liquid.
+/// Absorption coefficient of a liquid by colour channel [1/m].
 Vec3f absorption(const FluidSurface& fluid);
 
 }  // namespace tumble

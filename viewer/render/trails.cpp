@@ -6,9 +6,9 @@
 namespace tumble {
 namespace {
 
-/// Smooth for an ellipse of which a trail shows half.
+/// Samples of a trail: smooth even if it is half of an ellipse.
 constexpr double samples_of_one = 240;
-/// Lines that a renderer draws fluently, shared by all bodies.
+/// Total number of lines, for all bodies, that a renderer draws fluently.
 constexpr double samples_of_all = 60000;
 constexpr double fewest_samples = 8;
 
@@ -41,12 +41,12 @@ void Trails::see(const Frame& frame) {
   if (!(seconds_ > 0)) return;
   if (interval_ == 0) interval_ = interval_for(frame, seconds_);
   while (!samples_.empty() && samples_.back().tick > frame.tick) samples_.pop_back();
-  // Where one goes back to, every body is marked as jumped: to its own path.
+  // After going back, every body counts as jumped, since it moved to its place without a path.
   came_back_ = frame.tick < seen_tick_ || (came_back_ && frame.tick == seen_tick_);
   seen_tick_ = frame.tick;
   for (size_t slot = 0; slot < frame.body_slots() && !came_back_; ++slot)
     if (frame.body(slot).jumped) jumped_.push_back(frame.body(slot).id);
-  // A window may miss the tick that is due.
+  // The window may skip the tick at which a sample is due.
   if (samples_.empty() || frame.tick / interval_ > samples_.back().tick / interval_) keep(frame);
 }
 
@@ -63,7 +63,7 @@ void Trails::keep(const Frame& frame) {
       if (id.index < old.places.size()) old.places[id.index].id = {};
   jumped_.clear();
   samples_.push_back(std::move(sample));
-  // The one before the reach begins is where the last line ends.
+  // One sample before the reach is kept: the oldest line ends there.
   while (samples_.size() > 2 && samples_[1].time < frame.time - seconds_) samples_.pop_front();
 }
 

@@ -8,23 +8,23 @@
 
 namespace tumble {
 
-/// The paths of moving bodies over the last seconds, drawn as lines that fade with age. Fed with
-/// frames as they come; places are kept at every n-th tick, n fixed by the first frame, so that
-/// what is drawn does not depend on when pictures are made. Particles have paths of the length that
-/// their look says.
+/// The paths of moving bodies over the last seconds, drawn as lines that fade with age. Positions
+/// are sampled at every n-th tick, with n fixed by the first frame, so that the drawing does not
+/// depend on when pictures are made. Particles have paths of the length that their look gives.
 class Trails {
  public:
-  /// How far back paths reach [s]; 0: none are kept. Forgets what was seen before.
+  /// Sets how far back paths reach [s]; 0: no paths are kept. Drops what was recorded before.
   void start(double seconds);
-  /// The next frame. One that is not later than those seen (going back, a restart) takes away what
-  /// came after it.
+  /// Takes the next frame. A frame that is not later than the last (after a seek or restart)
+  /// removes the samples after it.
   void see(const Frame& frame);
-  /// Lines up to the moment `s` of the way between two frames, the latest that were seen.
+  /// Adds the lines up to the fraction `s` of the way between two frames, which must be the latest
+  /// that see() was given.
   void draw(const Frame& from, const Frame& to, double s, RenderScene& out) const;
 
  private:
   struct Place {
-    BodyId id;  ///< null: no path here
+    BodyId id;  ///< null: the slot has no path here
     Vec3 x;     ///< [m]
   };
   struct Sample {
@@ -35,11 +35,11 @@ class Trails {
   void keep(const Frame& frame);
 
   double seconds_ = 0;
-  uint64_t interval_ = 0;       ///< ticks from sample to sample; 0: no frame was seen
+  uint64_t interval_ = 0;       ///< ticks between samples; 0: no frame was seen yet
   std::deque<Sample> samples_;  ///< oldest first
-  std::vector<BodyId> jumped_;  ///< since the newest sample
-  uint64_t seen_tick_ = 0;      ///< of the latest frame
-  bool came_back_ = false;      ///< to that tick
+  std::vector<BodyId> jumped_;  ///< bodies moved by hand since the newest sample
+  uint64_t seen_tick_ = 0;      ///< tick of the latest frame
+  bool came_back_ = false;      ///< that tick was reached by going back
   ParticleTrails particles_;
 };
 

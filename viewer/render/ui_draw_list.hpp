@@ -24,7 +24,7 @@ struct UiDraw {
   UiTextureId texture = 0;
 };
 
-/// What an immediate-mode UI hands over: triangles in order, blended over the picture.
+/// The output of an immediate-mode UI: triangles in order, blended over the picture.
 struct UiDrawList {
   float width = 0, height = 0;  ///< size of the picture in UI units; 0: equal to its pixels
   std::vector<UiVertex> vertices;

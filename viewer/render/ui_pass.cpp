@@ -78,7 +78,7 @@ void UiPass::place(std::span<const Placed> pictures, const std::array<float, 3>&
   std::vector<UiVertex> corners;
   const auto h = float(height);
   for (const Placed& p : pictures) {
-    // Rows of targets begin at the bottom.
+    // Rows of targets are stored bottom first.
     const auto x0 = float(p.x), x1 = float(p.x + p.width);
     const UiVertex a{x0, 0, 0, 1}, b{x1, 0, 1, 1}, c{x1, h, 1, 0}, d{x0, h, 0, 0};
     for (const UiVertex& corner : {a, b, c, a, c, d}) corners.push_back(corner);

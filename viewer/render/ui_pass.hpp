@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// Draws labels and panels over the finished picture, one sample a pixel.
+/// Draws labels and panels over the finished, single-sampled picture.
 class UiPass {
  public:
   UiPass(Device& device, PipelineId pipeline, PipelineId place);
@@ -18,16 +18,16 @@ class UiPass {
 
   void set_font(const FontAtlas& font);
   UiTextureId add_texture(const Image& image);
-  /// The words of a picture: labels, legends, the plate.
+  /// Draws the text of a picture: labels, legends, the plate.
   void draw_words(const RenderScene& scene, const Camera& camera, TargetId target, int width,
                   int height);
   void draw_panels(const UiDrawList& panels, TargetId target, int width, int height);
-  /// Begins a dark picture with others of the same height in it.
+  /// Position of a picture within another of the same height.
   struct Placed {
     TextureId picture;
     int x = 0, width = 1;  ///< [px]
   };
-  /// `around`: the colour of what they leave free.
+  /// Clears the target to the colour `around` and draws other pictures into it.
   void place(std::span<const Placed> pictures, const std::array<float, 3>& around, TargetId target,
              int width, int height);
 

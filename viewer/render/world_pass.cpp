@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// A canvas that leaves all of what lies under it.
+/// Clear colour of the canvas: black with full transmittance.
 constexpr std::array<float, 4> nothing_drawn = {0, 0, 0, 1};
 
 }  // namespace
@@ -117,8 +117,8 @@ void WorldPass::draw_ground(uint32_t first, uint32_t count, PipelineId pipeline,
   device_.draw(c);
 }
 
-/// Hides what is below the ground, which comes under the canvas later: by the same triangles, as
-/// bodies may lie in its plane.
+/// Writes the depth of the ground, which is blended under the canvas later, to hide what is below
+/// it. It uses the same triangles, because bodies may lie in its plane.
 void WorldPass::draw_ground_depth(std::span<const ScissorRect> parts) {
   if (parts.empty()) return;
   int left = parts[0].x, right = left, top = parts[0].y, bottom = top;
@@ -159,7 +159,7 @@ void WorldPass::draw_blended(const RenderScene& scene) {
   draw_spheres(plan_.blended_spheres, pipelines_.sphere_blended[fine]);
 }
 
-/// What was drawn with fewer pixels than the picture has.
+/// Enlarges what was drawn with fewer pixels to the size of the picture.
 void WorldPass::enlarge() {
   device_.begin_pass({targets_->picture(), {}, false});
   DrawCall c = call(pipelines_.enlarge);
@@ -187,8 +187,8 @@ void WorldPass::draw_marks(const MarkRuns<T>& runs, const StreamBuffer& buffer, 
   }
 }
 
-/// The depth of what is solid for liquids and smoke, of one sample: the ground costs a tenth of
-/// what it costs among the samples of the canvas.
+/// Draws the depth of solid surfaces for liquids and smoke, single-sampled; the ground costs a
+/// tenth of what it costs multisampled.
 void WorldPass::draw_solid_depth(const CanvasParts& parts, const Layers& layers) {
   PassDesc pass{soft_.solid(), {}, true};
   pass.depth_of = targets_->canvas();
@@ -198,8 +198,8 @@ void WorldPass::draw_solid_depth(const CanvasParts& parts, const Layers& layers)
   device_.end_pass();
 }
 
-/// What needs every sample: edges of bodies, and the ground too unless it comes `under` them later.
-/// Leaves its last pass open.
+/// Draws what needs every sample: edges of bodies, and the ground unless it is blended under them
+/// later. Leaves its last pass open.
 void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
                             const CanvasParts& parts, const Layers& layers) {
   const TargetId canvas = targets_->canvas();
@@ -219,7 +219,7 @@ void WorldPass::draw_canvas(const RenderScene& scene, const FrameSetup& setup,
   if (soft && !layers.smoke_last) soft_.cover_with_smoke(call({}));
 }
 
-/// The canvas, its samples averaged, and what lies over and under all of it.
+/// Averages the samples of the canvas, and draws what lies over and under all of it.
 void WorldPass::draw_averaged(const RenderScene& scene, const FrameSetup& setup,
                               const CanvasParts& parts, const Layers& layers) {
   PassDesc pass{targets_->averaged(), nothing_drawn, false};
@@ -233,7 +233,7 @@ void WorldPass::draw_averaged(const RenderScene& scene, const FrameSetup& setup,
   device_.end_pass();
 }
 
-/// From what was drawn to the picture, of one sample and with all its pixels.
+/// Turns what was drawn into the final picture: single-sampled, with all pixels.
 void WorldPass::finish(bool is_averaged) {
   const PictureTargets& t = *targets_;
   if (t.is_reduced()) {
@@ -262,10 +262,10 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   draw_shadow_passes(scene, setup);
   if (soft) soft_.plan(scene, setup);
   Layers layers;
-  // Liquids look through to what is behind them.
+  // Liquids refract and so need everything behind them, ground included, in the canvas.
   layers.ground_under =
       targets.canvas() != targets.averaged() && scene.fluids.empty() && rim_is_hidden(scene, setup);
-  // Marks lie over smoke, and the ground hides some.
+  // Lines and points are drawn over smoke, and the ground hides some of them.
   const bool marks = !lines.all.empty() || !points.all.empty();
   layers.smoke_last = layers.ground_under && !marks;
   const std::vector<ScissorRect> whole = {{0, 0, width, height}};

@@ -10,43 +10,43 @@
 
 namespace tumble {
 
-/// What was drawn of a world.
+/// What was drawn for one world.
 struct WorldDrawn {
   Camera camera;  ///< with near and far filled in
   uint32_t visible_instances = 0, culled_instances = 0;
 };
 
-/// Draws the world of a RenderScene, all but words and panels: shadow map, contact shade of the
-/// ground, surfaces, ghosts, lines and points, ground and sky.
+/// Draws the world of a RenderScene, without text and panels: shadow map, contact shade of the
+/// ground, surfaces, transparent bodies, lines and points, ground and sky.
 class WorldPass {
  public:
   WorldPass(Device& device, const Pipelines& pipelines);
 
-  /// Into the picture of targets that were prepared; `frame` counts pictures.
+  /// Draws into prepared targets; `frame` is the number of the picture.
   Result<WorldDrawn> draw(const RenderScene& scene, PictureTargets& targets, uint64_t frame);
   /// Frees meshes last drawn before this picture.
   void forget_meshes_before(uint64_t frame) { meshes_.forget_before(frame); }
 
  private:
-  /// What comes when.
+  /// Order of the layers.
   struct Layers {
-    bool ground_under = false;  ///< ground and sky come under the averaged canvas
-    bool smoke_last = false;    ///< smoke comes over that, not into the canvas
+    bool ground_under = false;  ///< ground and sky are blended under the averaged canvas
+    bool smoke_last = false;    ///< smoke is drawn over the averaged canvas, not into the canvas
   };
-  /// Of the canvas.
+  /// Parts of the canvas.
   struct CanvasParts {
-    std::vector<ScissorRect> drawn;         ///< hold all that is drawn but the ground
-    std::vector<ScissorRect> below_ground;  ///< hold what the ground hides
-    std::vector<ScissorRect> solid;  ///< hold what of them liquids and smoke ask the depth of
+    std::vector<ScissorRect> drawn;         ///< contain everything drawn except the ground
+    std::vector<ScissorRect> below_ground;  ///< contain everything that the ground hides
+    std::vector<ScissorRect> solid;  ///< those parts of them whose depth liquids and smoke need
   };
 
   DrawCall call(PipelineId pipeline) const;
   void fill_buffers(const FrameSetup& setup, const MarkRuns<GpuLine>& lines,
                     const MarkRuns<GpuPoint>& points);
-  /// With those for plain bodies and those for patterned ones.
+  /// Uses the pipelines for plain and for patterned bodies.
   void draw_batches(const std::vector<Batch>& batches,
                     const std::array<BodyPipelines, 2>& pipelines);
-  /// Layers without balls, whatever the pattern.
+  /// For layers without balls and patterns.
   void draw_batches(const std::vector<Batch>& batches, PipelineId closed, PipelineId open);
   void draw_spheres(const SphereRun& run, PipelineId pipeline);
   void draw_shadow_passes(const RenderScene& scene, const FrameSetup& setup);
@@ -73,7 +73,7 @@ class WorldPass {
   SoftPass soft_;
   StreamBuffer frame_uniforms_, instances_, spheres_, lines_, points_;
   StreamBuffer ground_corners_, ground_triangles_;
-  PictureTargets* targets_ = nullptr;  ///< being drawn into
+  PictureTargets* targets_ = nullptr;  ///< of the picture being drawn
   uint64_t frame_ = 0;                 ///< number of the picture that is being drawn
   DrawPlan plan_;
   GroundPlan ground_plan_;

@@ -72,7 +72,7 @@ void draw_steps(PanelContext& context, ParameterWidgets& widgets) {
   }
 }
 
-/// What the typed numbers ask for, in the frame of the handles.
+/// The displacement given by the typed numbers, in the frame of the handles.
 Displacement typed_way(const HandleSettings& handles, const TypedDisplacement& typed) {
   Displacement way;
   if (handles.kind == HandleKind::move) way.shift = typed.shift;

@@ -3,7 +3,8 @@
 
 namespace tumble {
 
-/// Which handles stand at the selected bodies, how they snap, and numbers in place of a drag.
+/// Draws the controls for the handles at the selected bodies: which handles, how they snap, and
+/// fields to type a displacement instead of dragging.
 void draw_arrange_form(PanelContext& context);
 
 }  // namespace tumble

@@ -6,20 +6,21 @@
 namespace tumble {
 
 enum class Verdict : uint8_t {
-  waiting,  ///< its moment has not come
-  holds,    ///< it did at its moment; or always so far
+  waiting,  ///< its time has not been reached
+  holds,    ///< it held at its time, or (if it is to hold always) it has held so far
   fails,
 };
 
-/// An assertion of a scene, and how it stands.
+/// An assertion of a scene and its outcome.
 struct AssertionView {
-  std::string title;         ///< "": its text says it
+  std::string title;         ///< "": the text is shown instead
   std::string text;          ///< the condition
-  std::optional<double> at;  ///< the moment, or from when on [s]; none: at the end, or the start
+  std::optional<double> at;  ///< the time at which, or from which on, it must hold [s]; none: at
+                             ///< the end, or from the start
   bool always = false;
   Verdict verdict = Verdict::waiting;
-  double decided = 0;  ///< when, if it does not wait [s]
-  std::string values;  ///< where it fails: "name = value" of each quantity in it, a line each
+  double decided = 0;  ///< time at which it was decided, unless waiting [s]
+  std::string values;  ///< if it fails: "name = value" of each quantity in it, one per line
 };
 
 /// "at 20 s", "always", "always from 2 s on", "at the end".

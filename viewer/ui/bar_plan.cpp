@@ -8,7 +8,7 @@ namespace {
 constexpr float edge_gap = 10, part_gap = 14;
 constexpr float least_scene = 64, usual_scene = 90, widest_scene = 250;
 constexpr float pause = 32, steps = 3 * 32, speed = 122;
-constexpr float clock = 150;  ///< time and tick
+constexpr float clock = 150;  ///< width for time and tick
 
 }  // namespace
 
@@ -34,7 +34,7 @@ BarPlan plan_bar(float width, const BarWidths& widths) {
   plan.scene_width = std::max(plan.scene_width, 30.0f);
   plan.speed = plan.steps && room(plan.scene_width) >= pause + steps + speed;
   const float transport = least_transport + (plan.speed ? speed : 0);
-  // In the middle where there is room, else after the scene's name.
+  // Centred if there is room, otherwise after the scene's name.
   const float after = edge_gap + plan.scene_width + part_gap;
   plan.transport_x = std::max(after, std::min(0.5f * (width - transport) - 60,
                                               plan.right_x - part_gap - transport - clock));

@@ -27,12 +27,12 @@ Group group_of(std::string_view name) {
   return name == "colour" ? Group::look : Group::body;
 }
 
-/// A body of which the scene's file describes several at once.
+/// Whether the scene's file describes this body together with others (repetition).
 bool is_copy(const BodyDef& def) {
   return def.name.ends_with(']');
 }
 
-/// What the file says once for all copies: one alone cannot have another.
+/// Whether the file can only have one value of this for all copies.
 bool is_of_all_copies(std::string_view name) {
   constexpr std::string_view common[] = {"group", "can_sleep", "precise", "hull_mass", "inertia"};
   return std::ranges::find(common, name) != std::end(common);
@@ -44,12 +44,13 @@ void say_it_is_of_all_copies(PanelContext& context, const BodyDef& def) {
              palette::faint);
 }
 
-/// The values of one group. Shapes have their own widgets; what only files know is left out.
+/// Widgets for the values of one group. Shapes have their own widgets; values that only occur in
+/// files are left out.
 class BodyWidgets : public ParameterWidgets {
  public:
   BodyWidgets(PanelContext& context, std::string prefix, Group group, bool copy)
       : ParameterWidgets(context, std::move(prefix)), group_(group), copy_(copy) {}
-  bool any_common = false;  ///< some stand there that are common to all copies
+  bool any_common = false;  ///< some of the values shown are common to all copies
 
   template <class T>
   void field(T& value, const Parameter& p) {
@@ -65,7 +66,8 @@ class BodyWidgets : public ParameterWidgets {
         ImGui::EndDisabled();
       }
   }
-  void field(std::optional<Quat>&, const Parameter&) {}  // angles are what people read
+  // The editable form of an orientation is angles.
+  void field(std::optional<Quat>&, const Parameter&) {}
   template <class T>
   void part(T& value) {
     T::parameters(*this, value);
@@ -88,7 +90,7 @@ class BodyWidgets : public ParameterWidgets {
   bool in_look_ = false;
 };
 
-/// Of a material; its name is gone once it is made.
+/// Widgets for a material, without its name, which has no effect on a body that exists.
 class MaterialWidgets : public ParameterWidgets {
  public:
   using ParameterWidgets::field;
@@ -96,7 +98,7 @@ class MaterialWidgets : public ParameterWidgets {
   void field(std::string&, const Parameter&) {}
 };
 
-/// The definition as it would be with the pose and velocities of this moment.
+/// The definition with the body's present pose and velocities.
 BodyDef at_this_moment(const BodyDef& def, const BodyFrame& body, const BodyInfo& info) {
   BodyDef now = def;
   now.pose = {body.pose.x - body.pose.direction(info.centre_body), body.pose.q};
@@ -144,13 +146,13 @@ bool shape_numbers(ParameterWidgets& widgets, ShapeDef& shape) {
       if (widgets.changed) shape.*p.vector = shown * p.factor;
     }
     if (!widgets.changed) continue;
-    shape.field = nullptr;  // one that was made already had the number of before
+    shape.field = nullptr;  // a distance field computed for the former numbers
     return true;
   }
   return false;
 }
 
-/// Where a shape is in its body, as files have it. True when that was changed.
+/// The pose of a shape in its body, as scene files give it. True if it was changed.
 bool shape_place(ParameterWidgets& widgets, Pose& pose) {
   Placement place;
   place.position = pose.x;
@@ -176,7 +178,7 @@ bool is_of_mesh(const BodyShapeDef& part) {
   return part.source || made_of_mesh(part.shape.type);
 }
 
-/// Takes the shape away; true when that was asked for.
+/// A button that removes the shape; true if it was pressed.
 bool draw_removal(PanelContext& context, const BodyDef& def, size_t index) {
   if (def.shapes.size() < 2 || is_of_mesh(def.shapes[index])) return false;
   ImGui::PushID(int(index));
@@ -191,7 +193,7 @@ bool draw_removal(PanelContext& context, const BodyDef& def, size_t index) {
   return remove;
 }
 
-/// One more shape, of the material of the first, on top of the others.
+/// A new shape with the material of the first one, placed on top of the others.
 BodyShapeDef fresh_shape(const BodyDef& def, ShapeType type) {
   BodyShapeDef out;
   out.shape.type = type;
@@ -200,7 +202,7 @@ BodyShapeDef fresh_shape(const BodyDef& def, ShapeType type) {
     if (const auto made = make_shape(part.shape))
       if (const double y = (*made)->bounds(part.pose).max.y(); std::isfinite(y)) top = y;
   if (!def.shapes.empty()) out.material = def.shapes[0].material;
-  // As large as half of a unit: its numbers are below, to be changed.
+  // Half a metre; the size can be changed in the fields below.
   constexpr double size = 0.5;
   out.shape.radius *= size;
   out.shape.top_radius *= size;
@@ -231,7 +233,7 @@ void draw_shape_choice(PanelContext& context, const BodyDef& def) {
   context.host.mark("inspector.add_shape");
 }
 
-/// What the scene calls it, here and wherever it is named.
+/// The body's name. Changing it also changes every reference in the scene.
 void draw_name(PanelContext& context, const BodyDef& def) {
   if (is_copy(def) || def.name.empty()) return;
   ImGui::AlignTextToFramePadding();
@@ -261,7 +263,7 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
   ImGui::EndDisabled();
   if (is_copy(def)) say_it_is_of_all_copies(context, def);
   if (shape_changed) {
-    // A mass that was only ever the shapes' follows them.
+    // If the mass was not given but computed from the shapes, it is computed again.
     ask([index, shape = part.shape, pose = part.pose](BodyDef& d) {
       if (index >= d.shapes.size()) return;
       d.shapes[index].shape = shape;
@@ -270,7 +272,8 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
     return;
   }
   MaterialDescription now = describe_material(part.material);
-  // Shown, and so to be changed, also where the material does not give them.
+  // Given explicitly, so that it is shown and can be changed even if the material has no such
+  // value.
   now.rolling_friction = part.material.rolling_arm();
   now.torsional_friction = part.material.torsional_arm();
   const MaterialDescription before = now;

@@ -3,7 +3,7 @@
 
 namespace tumble {
 
-/// What the selected body is made from, to be changed: a widget for each value of its description
+/// Draws an editable field for each value of the description of the selected body
 /// (scene/description/body.hpp), of its shapes and of their materials.
 void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef& def);
 

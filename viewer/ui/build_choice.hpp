@@ -8,17 +8,17 @@
 
 namespace tumble {
 
-/// A body of one of all_shapes().
+/// A body with one shape of all_shapes().
 struct NewBody {
   size_t shape = 0;
   friend bool operator==(const NewBody&, const NewBody&) = default;
 };
 struct NewJoint {
   JointKind kind = JointKind::revolute;
-  bool motor = false;  ///< that turns it, or drives it along
+  bool motor = false;  ///< the joint gets a motor along its free coordinate
   friend bool operator==(const NewJoint&, const NewJoint&) = default;
 };
-/// A mesh file, from the root.
+/// A body with a mesh loaded from a file.
 struct NewMesh {
   std::string file;
   MeshMode mode = MeshMode::triangle_mesh;
@@ -27,19 +27,19 @@ struct NewMesh {
 struct NewSpring {
   friend bool operator==(const NewSpring&, const NewSpring&) = default;
 };
-/// What is neither body nor joint.
+/// Parts of a scene other than bodies and joints.
 enum class PartKind : uint8_t { emitter, cloth, net, heap, fluid, gate, region };
 struct NewPart {
   PartKind kind = PartKind::emitter;
   friend bool operator==(const NewPart&, const NewPart&) = default;
 };
 
-/// What clicks on the picture build.
+/// What a click on the picture creates.
 struct BuildChoice {
   std::variant<NewBody, NewJoint, NewSpring, NewPart, NewMesh> what;
-  std::string mesh_file;  ///< that is in the palette; "": none yet
+  std::string mesh_file;  ///< mesh file loaded into the palette; "": none
   MeshMode mesh_mode = MeshMode::convex_hull;
-  size_t material = 0;  ///< of built_in_materials()
+  size_t material = 0;  ///< index into built_in_materials()
   BodyType type = BodyType::dynamic;
 };
 

@@ -7,13 +7,13 @@
 
 namespace tumble {
 
-/// What is known of the contact that a person looks at.
+/// Information about the contact selected for inspection.
 struct ContactView {
   ContactPick pick;
   std::optional<ContactCertificate> certificate;  ///< none while the two do not touch
-  /// Of the bodies that have one: dynamic ones under the event stepper.
+  /// Only for dynamic bodies under the event stepper.
   std::optional<BodyBalance> balance_a, balance_b;
-  std::string refusal;  ///< why nothing is known; empty when something is
+  std::string refusal;  ///< why there is no information; empty if there is
 };
 
 }  // namespace tumble

@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-/// Values from one round number to another, with lines between.
+/// A vertical axis between two round values, with grid lines.
 struct Axis {
   double low = 0, high = 1, step = 1;
   uint32_t colour = 0;
@@ -33,10 +33,10 @@ Axis axis_over(std::span<const PlottedCurve> curves, double lines) {
         high = std::max(high, double(v));
       }
   if (!(low <= high)) low = 0, high = 1;
-  // What does not change lies in the middle of a range that rounding does not reach.
+  // A constant curve is centred in a range wider than rounding errors.
   const double least = std::max(1e-6 * std::max(std::abs(low), std::abs(high)), 1e-12);
   if (high - low < least) {
-    const bool zero = low == 0 && high == 0;  // what has not begun to move, say
+    const bool zero = low == 0 && high == 0;  // e.g. what has not begun to move
     low -= zero ? 1 : 0.5 * std::max(std::abs(low), 1e-9);
     high += zero ? 1 : 0.5 * std::max(std::abs(high), 1e-9);
   }
@@ -49,7 +49,7 @@ Axis axis_over(std::span<const PlottedCurve> curves, double lines) {
   return axis;
 }
 
-/// One a unit, and which of them each curve has.
+/// Makes one axis per unit; of_curve gets the index of each curve's axis.
 std::vector<Axis> axes_of(std::span<const PlottedCurve> curves, double lines,
                           std::vector<size_t>& of_curve) {
   std::vector<std::string_view> units;
@@ -68,10 +68,10 @@ std::vector<Axis> axes_of(std::span<const PlottedCurve> curves, double lines,
   return axes;
 }
 
-/// The frame of a plot and the part of it where curves are.
+/// Outer frame of a plot, and the part of it for the curves.
 struct PlotFrame {
   ImVec2 at, end;
-  float x0 = 0, x1 = 1, y0 = 0, y1 = 1;  ///< y0 is the lower one
+  float x0 = 0, x1 = 1, y0 = 0, y1 = 1;  ///< y0 is the lower edge
 
   float x(double share) const { return x0 + float(share) * (x1 - x0); }
   float y(double share) const { return y0 + float(share) * (y1 - y0); }
@@ -92,7 +92,8 @@ PlotFrame begin_plot(PanelContext& context, std::string_view name, float height)
   return f;
 }
 
-/// Values at the right, one column an axis; gives where curves may go to.
+/// Draws the value axes at the right, one column each, and shrinks the part for the curves
+/// accordingly.
 void draw_value_axes(PanelContext& context, std::span<const Axis> axes, PlotFrame& f) {
   ImGui::PushFont(context.host.fonts().small);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -105,7 +106,7 @@ void draw_value_axes(PanelContext& context, std::span<const Axis> axes, PlotFram
       const std::string text = round_text(axis.low + k * axis.step, axis.unit);
       width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
     }
-    // Too many axes for the room there is: values are read with the pointer.
+    // Without room for more axes, values can still be read with the pointer.
     if (right - width - 12 < f.at.x + 0.4f * (f.end.x - f.at.x)) break;
     for (int k = 0; k <= lines; ++k) {
       const double v = axis.low + k * axis.step;
@@ -146,7 +147,7 @@ void go_to_time(PanelContext& context, double time) {
   context.ask(GoToMoment{context.model.clock->tick_at(time)});
 }
 
-/// The sample nearest to a moment; none of an empty curve.
+/// Index of the sample nearest to a time; none for an empty curve.
 std::optional<size_t> sample_at(std::span<const double> at, double time) {
   if (at.empty()) return std::nullopt;
   const auto after = std::ranges::lower_bound(at, time);
@@ -156,7 +157,7 @@ std::optional<size_t> sample_at(std::span<const double> at, double time) {
   return size_t((later ? after : before) - at.begin());
 }
 
-/// Time and values under the pointer; a click goes there.
+/// Shows time and values under the pointer; a click seeks to that time.
 void read_over_time(PanelContext& context, std::span<const PlottedCurve> curves, const PlotFrame& f,
                     double from, double to) {
   if (!ImGui::IsItemHovered() || !(to > from)) return;
@@ -176,7 +177,7 @@ void read_over_time(PanelContext& context, std::span<const PlottedCurve> curves,
   if (ImGui::IsMouseClicked(0)) go_to_time(context, time);
 }
 
-/// Pairs of values at the moments that both curves have.
+/// A pair of values at a time that both curves have.
 struct PhasePoint {
   double time;
   float x, y;

@@ -8,10 +8,11 @@
 
 namespace tumble {
 
-/// The least of 1, 2, 5 times a power of ten of which at most `lines` fit into `range`.
+/// The least step of 1, 2 or 5 times a power of ten that divides `range` into at most `lines`
+/// intervals.
 double round_step(double range, double lines);
 
-/// A curve over time; its samples are somebody else's.
+/// A curve over time; it refers to samples owned elsewhere.
 struct PlottedCurve {
   std::string_view label, unit;
   uint32_t colour = 0;
@@ -19,14 +20,14 @@ struct PlottedCurve {
   std::span<const float> values;
 };
 
-/// Curves over one axis of time, each with an axis of values of its own in its colour; those of
-/// one unit share theirs. A line stands at the moment that is shown; the pointer reads times and
-/// values, and a click goes there.
+/// Plots curves over a common time axis. Each curve has a value axis in its colour; curves with the
+/// same unit share one. A vertical line marks the time shown; the pointer reads times and values,
+/// and a click seeks to that time.
 void plot_over_time(PanelContext& context, std::string_view name,
                     std::span<const PlottedCurve> curves, float height);
 
-/// One quantity against another, at the moments that both have; a dot stands at the moment that is
-/// shown. The pointer reads the nearest point, and a click goes to its moment.
+/// Plots one quantity against another (phase plot) at the times that both have; a dot marks the
+/// time shown. The pointer reads the nearest point, and a click seeks to its time.
 void plot_phase(PanelContext& context, std::string_view name, const PlottedCurve& across,
                 const PlottedCurve& up, float height);
 

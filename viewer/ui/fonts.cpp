@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr float body_size = 15, small_size = 13, large_size = 21;  // line heights in UI units
 
-// Latin, Greek for physics, dashes and dots.
+// Latin-1, Greek letters for physics, dashes and dots.
 constexpr ImWchar glyph_ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2026, 0};
 
 ImFont* add_face(ImFontAtlas& atlas, const fs::path& file, float units, double scale) {

@@ -9,27 +9,27 @@ struct ImFontAtlas;
 
 namespace tumble {
 
-/// The faces of the panels; all in one atlas, never null once baked.
+/// The fonts of the panels, all in one atlas; never null once baked.
 struct UiFonts {
   ImFont* body = nullptr;      ///< running text and numbers (figures of equal width)
   ImFont* strong = nullptr;    ///< titles
   ImFont* small = nullptr;     ///< hints, shortcuts
   ImFont* large = nullptr;     ///< the help's heading, the scene's name
-  std::filesystem::path file;  ///< the regular face's; empty: ImGui's built-in bitmap
+  std::filesystem::path file;  ///< file of the regular font; empty: ImGui's built-in bitmap font
 };
 
-/// Places where a regular and a strong face are looked for, best first: $TUMBLE_FONT (a .ttf file),
-/// Roboto, DejaVu, Noto, Liberation.
+/// Font files that are tried, best first: $TUMBLE_FONT (a .ttf file), Roboto, DejaVu, Noto,
+/// Liberation; each in a regular and a bold weight.
 struct FontFace {
   std::filesystem::path regular, strong;
 };
 std::vector<FontFace> font_candidates();
 
-/// Bakes the faces for `scale` pixels per UI unit into an ImGui atlas. A machine without any font
-/// file gets ImGui's own bitmap.
+/// Bakes the fonts at `scale` pixels per UI unit into an ImGui atlas. Without any font file,
+/// ImGui's built-in bitmap font is used.
 UiFonts bake_ui_fonts(ImFontAtlas& atlas, double scale);
 
-/// The atlas as the renderer takes it: UI texture 0, with the glyphs of `fonts.body` for labels.
+/// The atlas in the renderer's format: UI texture 0, with the glyphs of `fonts.body` for labels.
 FontAtlas renderer_atlas(ImFontAtlas& atlas, const UiFonts& fonts);
 
 }  // namespace tumble

@@ -15,8 +15,8 @@ bool separates(char c) {
   return c == ' ' || c == '_' || c == '-' || c == '.' || c == '/';
 }
 
-/// What a letter is worth that stands in the text at all, where a word begins, right behind the one
-/// before, and at the beginning; each letter that is passed over costs one.
+/// Scores of a matched letter: anywhere in the text, at the beginning of a word, directly after the
+/// previous match, and at the beginning of the text; each skipped letter costs one.
 constexpr int found = 4, begins_word = 24, runs_on = 60, begins_text = 16;
 
 int worth(std::string_view text, size_t at) {
@@ -26,11 +26,11 @@ int worth(std::string_view text, size_t at) {
 
 }  // namespace
 
-/// The best of all ways to find the letters in order, by dynamic programming over search and text
-/// (Smith and Waterman 1981, with a cost of gaps that grows with their length).
+/// Maximises over all ways to find the letters in order, by dynamic programming over search and
+/// text (Smith and Waterman 1981, with a gap cost linear in the length).
 std::optional<int> fuzzy_score(std::string_view search, std::string_view text) {
   constexpr int never = std::numeric_limits<int>::min() / 2;
-  // best[i]: of all letters so far, the newest of which is text[i].
+  // best[i]: best score of all search letters so far, the last of which is matched to text[i].
   std::vector<int> best(text.size(), never), next(text.size(), never);
   bool first = true, running = false;
   for (const char wanted : search) {
@@ -38,7 +38,8 @@ std::optional<int> fuzzy_score(std::string_view search, std::string_view text) {
       running = false;
       continue;
     }
-    int before = never;  // of all letters before, somewhere left of here, less what is passed over
+    int before = never;  // best score of the previous letters, matched left of here, minus the
+                         // letters skipped since
     for (size_t i = 0; i < text.size(); ++i) {
       next[i] = never;
       const int start = first ? -int(i) : before;

@@ -4,8 +4,9 @@
 
 namespace tumble {
 
-/// How well `text` answers a search: every character of `search` must occur in order (case and
-/// spaces ignored). Runs, word beginnings and early matches count more. Nothing: no match.
+/// Score of `text` for a search: every character of `search` must occur in order (case and spaces
+/// ignored). Consecutive matches, beginnings of words and early matches score higher. Empty: no
+/// match.
 std::optional<int> fuzzy_score(std::string_view search, std::string_view text);
 
 }  // namespace tumble

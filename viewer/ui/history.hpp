@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// The recent past of a run, for curves and bars: one sample a published tick, the latest
-/// `capacity` of them. Going back in time forgets what lies ahead.
+/// The recent past of a run for curves and bars: one sample per published tick, the latest
+/// `capacity` of them. Going back in time drops the samples after the new present.
 class History {
  public:
   static constexpr size_t capacity = 480;
@@ -18,9 +18,9 @@ class History {
     uint64_t tick = 0;
     double time = 0;  ///< [s]
     Energies energies;
-    /// What each line of the ledger, and in the last place all forces, did to the energy [J].
+    /// Energy contributed by each line of the ledger, and in the last place by all forces [J].
     std::array<float, ledger_lines + 1> ledger{};
-    double step_seconds = 0;  ///< sum of the stages [s]
+    double step_seconds = 0;  ///< wall time of all stages of the step [s]
   };
   struct Stage {
     std::string name;
@@ -30,7 +30,7 @@ class History {
   void add(const Frame& frame);
   void clear();
   const std::vector<Sample>& samples() const { return samples_; }  ///< oldest first
-  /// In the order of the step.
+  /// Stages in the order in which the step runs them.
   const std::vector<Stage>& stages() const { return stages_; }
   double smoothed_step() const;  ///< [s]
 

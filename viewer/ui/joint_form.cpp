@@ -19,10 +19,11 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A new motor or spring moves the joint's bodies about so fast [1/s].
+/// Rate with which a new motor, or the natural frequency with which a new spring, moves the bodies
+/// [1/s].
 constexpr double new_rate = 1;
 
-/// One coordinate of a joint, with the units that its numbers are shown in.
+/// One coordinate of a joint and the units in which it is shown.
 struct Shown {
   PanelContext& context;
   const SelectedJoint& joint;
@@ -45,7 +46,7 @@ struct Shown {
   }
 };
 
-/// A number of the drive, in units of `unit`.
+/// A field for a number of the drive, in units of `unit`.
 void number(const Shown& s, double shown_now, const Parameter& p, double unit,
             const std::function<void(CoordinateDrive&, double)>& set) {
   ParameterWidgets widgets(s.context, s.prefix);
@@ -55,7 +56,7 @@ void number(const Shown& s, double shown_now, const Parameter& p, double unit,
     s.ask(widgets.edited, [set, value, unit](CoordinateDrive& d) { set(d, unit * value); });
 }
 
-/// A part that can be there or not.
+/// A switch for an optional part of the joint's drive.
 bool part(const Shown& s, const char* name, bool on,
           const std::function<void(CoordinateDrive&, bool)>& set) {
   bool wanted = on;
@@ -193,9 +194,9 @@ void draw_coordinate(const Shown& s, const CoordinateFrame& now) {
   if (drive.couple) note("It follows another coordinate, as by gears.");
 }
 
-/// What it bears before it breaks.
+/// The force and torque at which the joint breaks.
 void draw_strength(PanelContext& context, const SelectedJoint& joint, size_t index) {
-  /// A joint that is to break bears this at first [N], [N m].
+  /// Initial strength of a joint that is made breakable [N], [N m].
   constexpr double first_bound = 1000;
   const std::string prefix = fmt::format("joint.{}", index);
   for (const auto& [name, unit, member] :

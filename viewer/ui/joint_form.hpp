@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// The joints of the selected body: what their coordinates are, and what acts along them, to be
-/// changed.
+/// Draws editable fields for the joints of the selected body: their coordinates, and the limits,
+/// motors, springs and friction along them.
 void draw_joint_form(PanelContext& context);
 
 }  // namespace tumble

@@ -9,7 +9,7 @@ constexpr float bar_height = 46, margin = 10, gap = 8;
 constexpr float left_width = 292, right_width = 296;
 constexpr float least_height = 60;
 constexpr float least_open = 120, folded_height = 42;
-/// Below this two columns would leave nothing of the scene.
+/// Least width of the picture for two columns; below, they would leave too little of the scene.
 constexpr float two_columns = left_width + right_width + 2 * margin + 2 * gap + 140;
 
 float wish(const PanelEntry& panel, const UiState& state) {
@@ -36,7 +36,8 @@ float least_of(const std::vector<Member>& column) {
   return sum;
 }
 
-/// Folds, and then leaves out, until the rest fits; what was raised last stays open.
+/// Folds panels, then leaves them out, until the rest fits; the most recently raised one stays
+/// open.
 void make_fit(std::vector<Member>& column, float height) {
   std::vector<Member*> oldest_first;
   for (Member& m : column) oldest_first.push_back(&m);
@@ -50,13 +51,14 @@ void make_fit(std::vector<Member>& column, float height) {
     }
 }
 
-/// A lesson is read in one piece where the others keep enough to be used; the rest is shared.
+/// Shares the height when a lesson comes first: it gets all it needs, as long as the others keep
+/// their least height; the rest is shared among them.
 std::vector<float> share_with_first(const std::vector<Member>& column,
                                     const std::vector<float>& wishes, float available) {
   const bool taught = !column.empty() && column.front().panel->id == PanelId::lesson &&
                       column.front().form == Member::Form::open;
   if (!taught) return share_height(wishes, available);
-  constexpr float least_beside = 2 * least_open;  // of each other panel that wishes for as much
+  constexpr float least_beside = 2 * least_open;  // for each other panel that needs as much
   float kept = 0;
   for (size_t i = 1; i < wishes.size(); ++i) kept += std::min(wishes[i], least_beside);
   const float lesson = std::min(wishes.front(), std::max(available - kept, least_open));
@@ -93,7 +95,7 @@ std::vector<Member> shown_at(Dock dock, const UiState& state) {
   for (const PanelEntry& panel : all_panels())
     if (panel.dock == dock && state.shows(panel.id))
       out.push_back({&panel, wish(panel, state), state.raised[size_t(panel.id)]});
-  // A lesson is read first, and what it plots stands below it.
+  // A lesson comes first, with its plots below it.
   std::ranges::stable_partition(out,
                                 [](const Member& m) { return m.panel->id == PanelId::lesson; });
   return out;
@@ -105,7 +107,7 @@ UiRect centred(const PanelEntry& panel, const UiState& state, float width, float
   const float top = bar_height + margin;
   const float h = std::min(wish(panel, state), space);
   if (panel.id != PanelId::scenes) return {0.5f * (width - w), top + 0.4f * (space - h), w, h};
-  // A list to choose from stays where it is while it shrinks; a page to read stands in the middle.
+  // A list keeps its top edge while it shrinks; a page of text is centred.
   const float above = 0.06f * space;
   return {0.5f * (width - w), top + above, w, std::min(h, space - above)};
 }

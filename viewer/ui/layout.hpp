@@ -5,29 +5,30 @@
 
 namespace tumble {
 
-/// Where everything is on a picture of given size. The columns stand at the edges and the middle is
-/// left to the scene; nothing overlaps (centred panels lie over the rest on purpose).
+/// Positions of all panels for a picture of given size. Columns are at the left and right edge, and
+/// the middle is left to the scene; nothing overlaps except centred panels, which cover the rest on
+/// purpose.
 struct UiLayout {
   UiRect top_bar;
   struct Placed {
     const PanelEntry* panel;
     UiRect rect;
-    bool folded = false;  ///< its heading only: a click there opens it
+    bool folded = false;  ///< only its heading is shown; a click on it opens it
   };
   std::vector<Placed> panels;
-  UiRect free_area;  ///< of the scene, between the columns [UI units]
+  UiRect free_area;  ///< what remains for the scene between the columns [UI units]
 };
 
-/// Heights follow the contents; where a column is too short for them, the tallest give way and
-/// scroll. Where even that leaves too little, those that were raised longest ago are folded, and at
-/// the last left out. A narrow picture has one column.
+/// Heights follow the contents. If a column is too short for them, the tallest panels are shortened
+/// and scroll; if that is not enough, those raised longest ago are folded, and finally left out. A
+/// narrow picture has one column.
 UiLayout layout_ui(double width, double height, const UiState& state);
 
-/// Whether panels at both edges leave room for the scene; else there is one column, which covers
-/// much of it.
+/// Whether a picture of this width [UI units] has room for panels at both edges; otherwise there is
+/// one column, which covers much of the scene.
 bool has_two_columns(double width);
 
-/// Shares `available` among wishes: everybody gets min(wish, h) with the greatest h that fits.
+/// Shares `available` among needs: each gets min(need, h) with the greatest h that fits.
 std::vector<float> share_height(const std::vector<float>& wishes, float available);
 
 }  // namespace tumble

@@ -158,9 +158,9 @@ void Measures::see(const Frame& frame, bool ahead) {
       s.at.resize(size_t(place));
       s.values.resize(size_t(place));
     } else if (size_t(place) < s.at.size() && s.at[size_t(place)] == frame.time) {
-      continue;  // seen before
+      continue;  // already known
     }
-    if (s.at.size() >= capacity) {  // a tenth at once, so that this is rare
+    if (s.at.size() >= capacity) {  // drops a tenth at once, so that this is rare
       s.at.erase(s.at.begin(), s.at.begin() + capacity / 10);
       s.values.erase(s.values.begin(), s.values.begin() + capacity / 10);
       place = std::max<std::ptrdiff_t>(place - std::ptrdiff_t(capacity / 10), 0);

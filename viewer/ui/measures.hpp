@@ -8,28 +8,29 @@
 
 namespace tumble {
 
-/// Something that can be read from every frame: the height of a body, the angle of a joint.
+/// A quantity that can be read from every frame, such as the height of a body or the angle of a
+/// joint.
 struct Quantity {
   std::string name;  ///< "ball: height"
   std::string unit;
-  /// Nothing where it does not exist (any more).
+  /// Empty if the thing it refers to does not exist (any more).
   std::function<std::optional<double>(const Frame&)> read;
 };
 
-/// What can be measured of a body and of the joints at it.
+/// The quantities of a body and of its joints.
 std::vector<Quantity> quantities_of(const Frame& frame, BodyId body);
 
-/// What the sensors of the scene say.
+/// The readings of the scene's sensors.
 std::vector<Quantity> quantities_of_sensors(const Frame& frame);
 
-/// That of one of the two lists which has this name; nothing when there is none.
+/// The quantity of this name from either list; empty if there is none.
 std::optional<Quantity> quantity_of_name(const Frame& frame, const std::string& name);
 
-/// Quantities that a person watches, each with its recent past: a value a published tick. Going
-/// back in time keeps what lies ahead, as the line of time does, until that will not come any more.
+/// Quantities being plotted, each with its recent past: one value per published tick. Going back in
+/// time keeps later values, as the time line does, until the run takes another course.
 class Measures {
  public:
-  /// Values of one quantity [ticks]: a minute at 60 Hz.
+  /// Number of values kept per quantity [ticks]: a minute at 60 Hz.
   static constexpr size_t capacity = 3600;
   static constexpr size_t most = 12;
 
@@ -37,27 +38,29 @@ class Measures {
     Quantity quantity;
     std::vector<double> at;  ///< ascending [s]
     std::vector<float> values;
-    bool wants_past = false;  ///< it was not watched from the start, and that can be made good
+    bool wants_past = false;  ///< values from before it was added are missing and can be computed
   };
 
-  /// One more; a quantity of that name is not added twice.
+  /// Adds a quantity, unless one of that name exists.
   void add(Quantity quantity, const Frame& now);
-  /// Somebody went where nobody has seen the way to, or has watched for a while only: all of them
-  /// want their past. Until fill() or forget_past().
+  /// Marks the past of all quantities as missing, after a jump over ticks that were not seen; until
+  /// fill() or forget_past().
   void want_past();
   void want_past(size_t index) { series_.at(index).wants_past = true; }
   void forget_past();
-  /// The past of one of them (ascending times), where it has no value yet.
+  /// Supplies past values of one quantity (ascending times) where it has none yet.
   void fill(const std::string& name, const std::vector<double>& at,
             const std::vector<float>& values);
   void remove(size_t index);
-  /// Once for every new frame. `ahead`: what was seen after it will come once more.
+  /// To be called for every new frame. `ahead`: what was seen after this frame will happen again,
+  /// so later values stay valid.
   void see(const Frame& frame, bool ahead);
-  /// Forgets the past, and goes on with the same quantities.
+  /// Drops all values but keeps the quantities.
   void restart();
   void clear() { series_.clear(); }
   const std::vector<Series>& series() const { return series_; }
-  /// "time [s],ball: height [m],..." and a row a time; empty cells where a quantity had no value.
+  /// CSV with the header "time [s],ball: height [m],..." and a row per time; cells are empty where
+  /// a quantity has no value.
   std::string csv() const;
 
  private:

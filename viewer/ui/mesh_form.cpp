@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// In millimetres: "12.3"; what is less than a tenth of a micrometre is none.
+/// In millimetres, e.g. "12.3"; less than a tenth of a micrometre is shown as zero.
 std::string error_text(double metres) {
   return metres > 1e-7 ? fmt::format("{:.3g}", 1e3 * metres) : std::string("0");
 }

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// What a mesh of the selected body collides as: chosen here, and, when asked for, compared with
-/// the other ways by error, size and cost. Nothing where the body has no mesh.
+/// Draws the choice of the collision representation of a mesh of the selected body and, on request,
+/// a comparison of all of them by error, size and cost. Draws nothing if the body has no mesh.
 void draw_mesh_form(PanelContext& context, const BodyDef& def);
 
 }  // namespace tumble

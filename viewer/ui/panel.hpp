@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// What a panel works with: it reads the model, keeps its own switches in the state, and asks for
-/// everything else.
+/// Everything that a panel has access to: it reads the model, keeps its own state in `state`, and
+/// requests all other changes from the application.
 struct PanelContext {
   UiHost& host;
   const UiModel& model;
@@ -23,19 +23,19 @@ struct PanelContext {
   }
 };
 
-/// Which edge a panel stands at; centred ones lie over the scene and dim it.
+/// Edge of the picture at which a panel is docked; centred ones cover the scene and dim it.
 enum class Dock : uint8_t { left, right, centre };
 
-/// One panel. Adding one: its file in panels/, a PanelId, a line in all_panels().
+/// One panel. To add one: its file in panels/, a PanelId, a line in all_panels().
 struct PanelEntry {
   PanelId id;
-  std::string_view name;   ///< of its widgets, in scripts
-  std::string_view title;  ///< for people
+  std::string_view name;   ///< prefix of the names of its widgets in scripts
+  std::string_view title;  ///< title shown to people
   Dock dock;
   std::optional<Action> toggle;
   float usual_height;  ///< [UI units] before its contents have been measured
   void (*draw)(PanelContext&);
-  /// Stays at the panel's lower edge while the contents above it scroll; null: nothing.
+  /// Drawn at the panel's lower edge, while the contents above it scroll; null: nothing.
   void (*footer)(PanelContext&) = nullptr;
 };
 std::span<const PanelEntry> all_panels();
@@ -63,15 +63,15 @@ void draw_scenes_panel(PanelContext&);
 void draw_settings_panel(PanelContext&);
 void draw_statistics_panel(PanelContext&);
 
-/// The plot of the measure panel alone, over a picture of that size.
+/// Draws only the plot of the measure panel, over a picture of that size.
 void draw_plot_page(PanelContext&, float width, float height);
 
-/// What is there without being a panel: panels/top_bar.cpp, panels/legend.cpp,
+/// Fixed parts of the interface that are not panels: panels/top_bar.cpp, panels/legend.cpp,
 /// panels/timeline.cpp, panels/toasts.cpp.
 void draw_top_bar(PanelContext&, const UiRect& rect);
 void draw_legend(PanelContext&, const UiRect& free_area);
 void draw_toasts(PanelContext&, const UiRect& free_area);
-/// While time stands still: the ticks that can be gone to, at the lower edge. Gives what is left of
+/// Draws, while the simulation is paused, the time line at the lower edge. Returns what remains of
 /// the area.
 UiRect draw_timeline(PanelContext&, const UiRect& free_area);
 

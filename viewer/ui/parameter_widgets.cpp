@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-/// What is wrong with a value; "": nothing.
+/// Why a value is invalid; "": it is valid.
 std::string fault_of(double v, const Parameter& p) {
   return range_fault(v, p);
 }
@@ -27,17 +27,17 @@ std::string fault_of(const Vec3& v, const Parameter& p) {
   return {};
 }
 
-/// What a number says: -0 no more than 0, and in an angle what is left of its computation nothing.
+/// The number to display: -0 as 0, and angles without the residue of rounding.
 double shown_number(double v, const Parameter& p) {
   constexpr double rounding = 1e-9;  // [deg]
   const bool angle = p.name.ends_with("_deg") || p.unit == "deg";
   return angle && std::abs(v) < rounding ? 0.0 : v + 0.0;
 }
 
-/// For how long it is said why a value was not taken [s].
+/// How long the reason for rejecting a value is shown [s].
 constexpr double fault_seconds = 6;
 
-/// Share of a line that labels take.
+/// Share of a line's width for labels.
 constexpr float label_share = 0.56f;
 
 }  // namespace
@@ -49,7 +49,7 @@ std::string label_of(std::string_view name) {
   if (name.ends_with("_deg")) name.remove_suffix(4);
   std::string label(name);
   for (char& c : label)
-    if (c == '_' || c == '.') c = ' ';  // a point before the place in a list
+    if (c == '_' || c == '.') c = ' ';  // the point separates the index within a list
   return label;
 }
 
@@ -214,7 +214,7 @@ void ParameterWidgets::field(std::string& value, const Parameter& p) {
 
 bool ParameterWidgets::choice(size_t& index, std::span<const std::string_view> names,
                               const Parameter& p) {
-  // Where one of them has no room beside the label, they stand below it.
+  // If one of the fields does not fit beside the label, all are placed below it.
   float widest = 0;
   for (const std::string_view name : names)
     widest = std::max(widest, ImGui::CalcTextSize(words_of(name).c_str()).x);
@@ -287,7 +287,7 @@ void ParameterWidgets::begin(const Parameter& p, bool own_line) {
 void ParameterWidgets::end(const Parameter& p) {
   context_.host.mark(mark_name(p));
   tooltip_with_key(context_, p.doc, {});
-  // While one types the figures before the last may be out of range.
+  // An incomplete number may be out of range while it is being typed.
   const RefusedValue& refused = context_.state.refused;
   if (refused.field != mark_name(p) || ImGui::GetTime() > refused.until || ImGui::IsItemActive())
     return;

@@ -14,38 +14,40 @@ namespace tumble {
 
 struct TickRate;
 
-/// "contact_damping_ratio" as people write it: "contact damping ratio". The unit stands beside it.
+/// A parameter's name as text: "contact_damping_ratio" gives "contact damping ratio". The unit is
+/// shown separately.
 std::string label_of(std::string_view name);
-/// The name of an algorithm or a kind as people write it: "conservative advancement", "GJK".
+/// The name of an algorithm or a kind as text: "conservative advancement", "GJK".
 std::string words_of(std::string_view name);
-/// "m/s2" as people write it: "m/s²".
+/// A unit as text: "m/s2" gives "m/s²".
 std::string unit_words(std::string_view unit);
 
 /// A widget for each declared parameter (core/parameters.hpp) with its unit, range and help: a
-/// visitor over what a definition declares. Values outside the range are not taken, and the line
-/// below the field says why for some seconds.
+/// visitor of a definition's declaration. Values outside the range are rejected, and the reason is
+/// shown below the field for some seconds.
 class ParameterWidgets {
  public:
-  /// Widgets are marked "PREFIX.NAME" for scripts, the numbers of a vector "PREFIX.NAME.x" too.
+  /// Widgets are named "PREFIX.NAME" for scripts, the components of a vector "PREFIX.NAME.x".
   ParameterWidgets(PanelContext& context, std::string prefix)
       : context_(context), prefix_(std::move(prefix)) {}
-  bool changed = false;  ///< one of them was edited
-  std::string edited;    ///< its name, for people
+  bool changed = false;  ///< a value was edited
+  std::string edited;    ///< the name of that value for display
 
   void field(double& value, const Parameter& p);
   void field(int& value, const Parameter& p);
   void field(bool& value, const Parameter& p);
   void field(Vec3& value, const Parameter& p);
   void field(TickRate& value, const Parameter& p);
-  /// A number, or the expression that it follows over time, and a switch between the two.
+  /// A number, or an expression over time, with a switch between the two.
   void field(Varying& value, const Parameter& p);
   void field(VaryingVec3& value, const Parameter& p);
   void field(Colour& value, const Parameter& p);
-  /// One of the names that are known for this parameter; else it is only shown.
+  /// A choice, if the possible names for this parameter are known; otherwise the value is only
+  /// shown.
   void field(std::string& value, const Parameter& p);
-  /// One of these names; true when another was chosen.
+  /// A choice of one of these names; true if it was changed.
   bool choice(size_t& index, std::span<const std::string_view> names, const Parameter& p);
-  /// What is not given is not shown.
+  /// Values that are not given are not shown.
   template <class T>
   void field(std::optional<T>& value, const Parameter& p) {
     if (value) field(*value, p);
@@ -69,16 +71,16 @@ class ParameterWidgets {
   void heading(const Parameter& p);
 
  protected:
-  /// Whether a value without a fault, or with this one, is taken; it is said if not.
+  /// Whether a value with this fault ("": none) is accepted; if not, the fault is shown.
   bool takes(std::string fault, const Parameter& p);
   void note_change(const Parameter& p);
   void begin(const Parameter& p, bool own_line = false);
   void end(const Parameter& p);
   std::string mark_name(const Parameter& p) const;
   const char* id(const Parameter& p);
-  /// A switch between a number and an expression; true when it was pressed.
+  /// A switch between a number and an expression; true if it was pressed.
   bool over_time(bool& on, const Parameter& p);
-  /// The expression that a number follows; a table is only shown.
+  /// A field for the expression of a number over time; a table is only shown.
   void course(Varying& value, const Parameter& p);
 
   PanelContext& context_;

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// Widgets for descriptions of parts: inner objects, choices of kinds and lists included.
+/// Widgets for descriptions of parts, including nested objects, choices of kinds, and lists.
 class PartWidgets : public ParameterWidgets {
  public:
   using ParameterWidgets::ParameterWidgets;
@@ -59,7 +59,7 @@ class PartWidgets : public ParameterWidgets {
     }
     more_or_less(values, p);
   }
-  /// Files may turn by other ways; people read angles.
+  /// Files can give orientations in several ways; here they are edited as angles.
   void part(Placement& value) {
     const Vec3 before = value.position;
     Vec3 position = before, angles = quat_to_euler_deg(value.pose().q);
@@ -131,7 +131,7 @@ class PartWidgets : public ParameterWidgets {
     draw();
     prefix_ = outer;
   }
-  /// A switch that gives a value or leaves it out; true when there is one to be shown.
+  /// A switch that sets or unsets an optional value; true if there is a value to show.
   template <class T>
   bool given(std::optional<T>& value, const Parameter& p) {
     bool on = value.has_value();
@@ -171,7 +171,7 @@ class PartWidgets : public ParameterWidgets {
       return T{};
   }
 
-  bool fresh_ = false;  ///< what is drawn was given in this picture
+  bool fresh_ = false;  ///< the value drawn was set in this frame
 };
 
 }  // namespace

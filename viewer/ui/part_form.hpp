@@ -6,9 +6,10 @@
 
 namespace tumble {
 
-/// Widgets for every value of an emitter, sensor, force or particle system, with units, ranges and
-/// help; what is not given can be given, lists grow and shrink. Asks for the change. Widgets are
-/// marked "part.KEY", of inner objects "part.speed.mean", of lists "part.cloth.0.rows".
+/// Draws widgets for every value of an emitter, sensor, force or particle system, with units,
+/// ranges and help. Optional values can be set and unset, and lists extended and shortened. Changes
+/// are requested from the application. Widgets are named "part.KEY", in nested objects
+/// "part.speed.mean", in lists "part.cloth.0.rows".
 void draw_part_form(PanelContext& context, const std::string& name, const PartDescription& part);
 
 }  // namespace tumble

@@ -42,7 +42,7 @@ void plot(PanelContext& context, std::string_view name, std::span<const double> 
   const ImVec2 end(at.x + width, at.y + height);
   list.AddRectFilled(at, end, palette::well, 5);
 
-  // Both ends are lines of the grid: the scale changes in steps, and every line has its value.
+  // Both ends are grid lines: the scale changes in steps, and every grid line has a label.
   ImGui::PushFont(context.host.fonts().small);
   const float line_height = ImGui::GetTextLineHeight();
   Range range = range_of(curves);
@@ -55,7 +55,8 @@ void plot(PanelContext& context, std::string_view name, std::span<const double> 
     return float(double(end.y - margin) -
                  (v - range.low) / (range.high - range.low) * double(height - 2 * margin));
   };
-  float label_width = 52;  // most labels: the curves do not move when the scale changes
+  // Enough for most labels, so that the curves do not move when the scale changes.
+  float label_width = 52;
   for (double k = first; k <= last; ++k)
     label_width = std::max(label_width, ImGui::CalcTextSize(round_text(k * step, unit).c_str()).x);
   const float x0 = at.x + 6, x1 = end.x - label_width - 12;

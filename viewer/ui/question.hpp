@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// What a person is asked over the scene. Esc gives the last answer, which changes nothing.
+/// A modal question over the scene. Esc gives the last answer, which changes nothing.
 struct Question {
   std::string title;
   std::vector<std::string> lines;

@@ -4,14 +4,14 @@
 
 namespace tumble {
 
-/// What saving the scene would write, before it does.
+/// Preview of what saving the scene would write.
 struct SavePreview {
-  std::string file;                   ///< where it would go
-  std::vector<std::string> lines;     ///< "- 12: old", "+ 12: new"; none: nothing was changed
-  std::vector<std::string> left_out;  ///< what a file cannot say
+  std::string file;                   ///< the file to be written
+  std::vector<std::string> lines;     ///< "- 12: old", "+ 12: new"; empty: no changes
+  std::vector<std::string> left_out;  ///< changes that a scene file cannot represent
   std::string warning;                ///< "": none
-  std::string fault;                  ///< why it cannot be saved, "" when it can
-  bool only_there = false;            ///< the fault may not hold in another folder
+  std::string fault;                  ///< why it cannot be saved; "": it can
+  bool only_there = false;  ///< the fault depends on the folder; saving elsewhere may work
 };
 
 }  // namespace tumble

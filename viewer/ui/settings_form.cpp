@@ -33,7 +33,7 @@ class SettingsWidgets : public ParameterWidgets {
   std::string stepper_;
 };
 
-/// A slider; true when it was let go, or a number was typed.
+/// A slider; true when it was released, or a number was typed.
 bool pull_parameter(const SceneParameter& p, double& value) {
   const std::string id = "##" + p.name;
   const char* format = p.whole() ? "%.0f" : "%.4g";
@@ -51,7 +51,7 @@ bool pull_parameter(const SceneParameter& p, double& value) {
 
 }  // namespace
 
-/// A label at the left; the widget that follows takes the rest of the line.
+/// A label at the left; the next widget fills the rest of the line.
 void left_label(const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);

@@ -18,16 +18,16 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
 constexpr ImGuiWindowFlags still_window =
     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
 
-/// What is below the heading, which stays where it is while this scrolls.
+/// Draws the contents of a panel, which scroll below its fixed heading.
 void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect& r) {
   float& height = context.state.content_height[size_t(panel.id)];
-  // A first frame of unknown height would show a scrollbar for an instant.
+  // In the first frame the height is unknown, and a scrollbar would flash.
   const bool measured = height > 0;
   const float top = ImGui::GetCursorPosY();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   ImGui::SetCursorPosX(0);
-  // The scrollbar stands at the edge of the panel, where its own clipping would hide it; the
-  // contents keep their distance from it.
+  // The scrollbar is at the edge of the panel, where the window's padding would clip it; the
+  // contents keep the padding.
   ImGui::PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, false);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(padding.x, 0));
   float* const footer = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("footer"), 0);
@@ -38,7 +38,7 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   ImGui::PopStyleVar();
   panel.draw(context);
   const float spacing = ImGui::GetStyle().ItemSpacing.y;
-  ImGui::Dummy(ImVec2(0, 0));  // closes the last line, whatever its spacing was
+  ImGui::Dummy(ImVec2(0, 0));  // ends the last line, whatever its spacing
   ImGui::Dummy(ImVec2(0, std::max(padding.y - spacing, 0.0f)));
   const float end = ImGui::GetCursorPosY() - spacing;
   height = std::ceil(top + end + foot);
@@ -46,7 +46,7 @@ void draw_contents(PanelContext& context, const PanelEntry& panel, const UiRect&
   ImGui::PopClipRect();
   if (!panel.footer) return;
   constexpr float gap = 6;
-  if (height > r.height) {  // what is cut off there goes on below
+  if (height > r.height) {  // the contents continue below the edge
     const float y = r.y + r.height - foot;
     ImGui::GetWindowDrawList()->AddLine({r.x, y}, {r.x + r.width, y},
                                         ImGui::GetColorU32(ImGuiCol_Separator));
@@ -66,9 +66,9 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
   const bool centred = panel.dock == Dock::centre;
   if (centred) ImGui::SetNextWindowFocus();
   const std::string id = fmt::format("##panel.{}", panel.name);
-  // Clicked panels stay behind messages, and behind the dimming of a centred one.
+  // A clicked panel must not cover messages, nor the dimming of a centred panel.
   const ImGuiWindowFlags level = centred ? 0 : ImGuiWindowFlags_NoBringToFrontOnFocus;
-  // Other panels under a page to read would shine through.
+  // Opaque, so that panels below a page of text do not show through.
   if (centred) ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
   ImGui::Begin(id.c_str(), nullptr, fixed_window | level | still_window);
   if (centred) ImGui::PopStyleColor();
@@ -83,7 +83,7 @@ void draw_panel(PanelContext& context, const UiLayout::Placed& placed) {
 }
 
 void dim_scene(PanelContext& context, double width, double height) {
-  // Behind a centred panel: a click there closes it.
+  // Full-size window behind a centred panel: a click on it closes the panel.
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(float(width), float(height)));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::rgba(0x06080A, 0.45f));
@@ -132,7 +132,7 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
     for (const UiLayout::Placed& placed : layout.panels)
       if (placed.panel->dock == Dock::centre) draw_panel(context, placed);
   }
-  // Messages are worth more than what they lie over.
+  // Messages may cover panels, rather than be too narrow.
   constexpr float least_room = 260;
   UiRect room = free_area;
   if (room.width < least_room) room = {0, room.y, float(width), room.height};

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// Draws all that is visible: bars, docked panels with their headings, centred panels, messages.
-/// Between UiHost::begin() and end(). Returns where the scene is free.
+/// Draws the whole interface: bars, docked panels with headings, centred panels, messages. To be
+/// called between UiHost::begin() and end(). Returns the area left free for the scene.
 UiRect draw_ui(PanelContext& context, double width, double height);
 
 }  // namespace tumble

@@ -121,7 +121,7 @@ void apply_ui_style(Theme theme) {
   s.FrameBorderSize = 0;
   s.WindowMinSize = ImVec2(16, 16);
   s.DisabledAlpha = 0.4f;
-  s.AntiAliasedLinesUseTex = false;  // the atlas is redrawn by our own device
+  s.AntiAliasedLinesUseTex = false;  // our device uses an atlas of its own, without the baked lines
   apply_colours(s.Colors);
 }
 

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// The first "mark N" that no bookmark has.
+/// The first "mark N" that is not taken.
 std::string free_mark_name(const std::vector<Bookmark>& bookmarks) {
   for (size_t n = bookmarks.size() + 1;; ++n) {
     std::string name = fmt::format("mark {}", n);
@@ -44,7 +44,7 @@ const Bookmark* TimeMarks::previous(uint64_t tick) const {
 }
 
 std::optional<TickSpan> TimeMarks::span_about(uint64_t tick, uint64_t first, uint64_t last) const {
-  // One that stands on a bookmark means what lies before it.
+  // With a bookmark at this tick, the span before it is meant.
   const Bookmark* before = previous(tick);
   const auto at = std::ranges::lower_bound(bookmarks, tick, {}, &Bookmark::tick);
   TickSpan span{before ? before->tick : first, at != bookmarks.end() ? at->tick : last};

@@ -7,57 +7,57 @@
 
 namespace tumble {
 
-/// A moment that a person wants to come back to.
+/// A named tick to return to.
 struct Bookmark {
   uint64_t tick = 0;
   std::string name;
   bool operator==(const Bookmark&) const = default;
 };
 
-/// From one tick to a later one.
+/// A span from one tick to a later one.
 struct TickSpan {
   uint64_t from = 0, to = 0;
   bool operator==(const TickSpan&) const = default;
 };
 
-/// What a person has marked on the line of time: bookmarks, by tick and one a tick, and the span
-/// that is played over and over.
+/// The user's marks on the time line: bookmarks (at most one per tick, ascending) and the span to
+/// be looped.
 struct TimeMarks {
   std::vector<Bookmark> bookmarks;
-  std::optional<TickSpan> span;  ///< none: nothing could be looped
+  std::optional<TickSpan> span;  ///< none: there is nothing to loop
   bool looping = false;
 
-  /// A bookmark there, or the one that is there no more. An empty name: "mark N".
+  /// Sets a bookmark at the tick, or removes the one that is there. An empty name becomes "mark N".
   void toggle(uint64_t tick, std::string name = {});
   void remove(size_t index);
-  /// The nearest bookmark after a tick, or before it; null: none.
+  /// The nearest bookmark after, or before, a tick; null: none.
   const Bookmark* next(uint64_t tick) const;
   const Bookmark* previous(uint64_t tick) const;
-  /// Between the bookmarks about a tick, or the ends of what is known where there are none; none
-  /// where that has no length.
+  /// The span between the bookmarks around a tick; where there is none on a side, the span ends at
+  /// `first` or `last`. None if it has no length.
   std::optional<TickSpan> span_about(uint64_t tick, uint64_t first, uint64_t last) const;
-  /// Marks one end of the span. The other one gives way where it would come to lie on the wrong
-  /// side.
+  /// Sets one end of the span. The other end moves if it would be on the wrong side.
   void begin_span(uint64_t tick, uint64_t last);
   void end_span(uint64_t tick, uint64_t first);
   bool operator==(const TimeMarks&) const = default;
 };
 inline const TimeMarks no_time_marks;
 
-/// Which tick is at what time, in a run whose ticks may become shorter or longer on the way. Knows
-/// what it has seen; ticks that are yet to come are as long as the last one.
+/// Times of the ticks of a run whose tick length may change. It knows the ticks it has seen; later
+/// ones are assumed to be as long as the last one.
 class TickClock {
  public:
   explicit TickClock(double tick_seconds) : parts_{{0, 0, tick_seconds}} {}
 
-  /// The moment that is shown now; what was known of later ones is another course of history.
+  /// Takes the moment shown. What was known of later ticks is dropped, since the run may take
+  /// another course.
   void see(uint64_t tick, double time, double tick_seconds);
   double time_of(uint64_t tick) const;  ///< [s]
   /// The tick nearest to a time [s].
   uint64_t tick_at(double time) const;
 
  private:
-  /// From a tick on, until the next one.
+  /// A range of ticks of equal length, up to the next part.
   struct Part {
     uint64_t tick = 0;
     double time = 0, tick_seconds = 0;

@@ -53,11 +53,11 @@ UiHost::UiHost() : font_atlas_(std::make_unique<ImFontAtlas>()) {
   context_ = ImGui::CreateContext(font_atlas_.get());
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // the layout is ours; nothing is remembered behind a person's back
+  io.IniFilename = nullptr;  // we lay out the panels; ImGui must not save its own settings
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
-  // A click on a number begins to type: else what is typed next would go to the window's keys.
+  // A click on a number begins editing it; otherwise the keys typed next would trigger shortcuts.
   io.ConfigDragClickToInputText = true;
   map_keys(io);
   apply_ui_style();
@@ -189,7 +189,7 @@ PointerLook UiHost::pointer_look() const {
 
 void UiHost::mark(std::string_view name) {
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-  // What a scroll area hides cannot be clicked.
+  // Items that a scroll area hides cannot be clicked.
   if (!ImGui::IsItemVisible()) return;
   mark(name, {a.x, a.y, b.x - a.x, b.y - a.y});
 }

@@ -21,8 +21,8 @@ namespace tumble {
 
 enum class PointerLook : uint8_t { arrow, hand, text, resize_x, resize_y };
 
-/// Dear ImGui without a window or a graphics library: events in, flat triangles out. Works the same
-/// under a window, EGL, OSMesa and the null device. UI units are pixels divided by `scale`.
+/// Dear ImGui without a window or a graphics library: takes events and returns a list of triangles.
+/// It works the same with a window, EGL, OSMesa and the null device. A UI unit is `scale` pixels.
 class UiHost {
  public:
   struct Clipboard {
@@ -35,33 +35,35 @@ class UiHost {
   UiHost(const UiHost&) = delete;
   UiHost& operator=(const UiHost&) = delete;
 
-  /// Pixels per UI unit; bakes the fonts anew when it changes. True when the atlas is another one.
+  /// Sets the pixels per UI unit, and bakes the fonts anew if that changes. True if the atlas has
+  /// changed.
   bool set_scale(double scale);
   double scale() const { return scale_; }
-  /// Colours of all panels from the next frame on.
+  /// Sets the colours of all panels from the next frame on.
   void set_theme(Theme theme);
   const UiFonts& fonts() const { return fonts_; }
-  /// For Renderer::set_font, after set_scale() said so.
+  /// The font atlas for Renderer::set_font, to be passed on when set_scale() returned true.
   FontAtlas atlas();
   void set_clipboard(Clipboard clipboard);
 
-  /// Starts a frame of width x height UI units. With `pointer_elsewhere` the pointer belongs to a
-  /// gesture on the scene and the panels do not see it.
+  /// Starts a frame of width x height UI units, `dt` [s] after the last. With `pointer_elsewhere`
+  /// the pointer belongs to a gesture in the scene and is hidden from the panels.
   void begin(double width, double height, double dt, std::span<const InputEvent> events,
              bool pointer_elsewhere);
-  /// The panels take the pointer (or keys) in this frame.
+  /// Whether the panels use the pointer (or the keys) in this frame.
   bool wants_pointer() const;
   bool wants_keys() const;
-  /// A field that was left has no claim to the keys any more; ImGui would notice a frame later.
+  /// Releases the keyboard at once after a field has lost the focus; ImGui would do so a frame
+  /// later.
   void give_up_keys();
   PointerLook pointer_look() const;
-  /// Remembers where the item drawn last is, for scripts and tests.
+  /// Records the position of the item drawn last under a name, for scripts and tests.
   void mark(std::string_view name);
   void mark(std::string_view name, const UiRect& rect);
-  /// Ends the frame and hands over its triangles.
+  /// Ends the frame and returns its triangles.
   void end(UiDrawList& out);
 
-  /// Where a widget was in the last finished frame.
+  /// Position of a named widget in the last finished frame.
   std::optional<UiRect> find(std::string_view name) const;
   const std::map<std::string, UiRect, std::less<>>& widgets() const { return shown_; }
 
@@ -75,9 +77,10 @@ class UiHost {
   Theme theme_ = Theme::dark;
   Clipboard clipboard_;
   std::string clipboard_text_;
-  int keys_given_up_ = 0;  ///< frames for which ImGui's claim does not count
+  int keys_given_up_ = 0;  ///< frames left in which ImGui's claim to the keyboard is ignored
   HeldInput held_;
-  /// A tap shorter than a frame is kept down for one frame: ImGui sees states, not events.
+  /// Releases that are delayed by a frame, so that a key or button pressed and released within one
+  /// frame is seen by ImGui, which reads states instead of events.
   std::vector<InputEvent> late_releases_;
   std::map<std::string, UiRect, std::less<>> marks_, shown_;
 };

@@ -2,7 +2,7 @@
 
 namespace tumble {
 
-/// [UI units]
+/// A rectangle [UI units], y down.
 struct UiRect {
   float x = 0, y = 0, width = 0, height = 0;
   bool overlaps(const UiRect& o) const {

@@ -6,7 +6,7 @@ namespace tumble {
 
 void UiState::toast(ToastKind kind, std::string title, std::vector<std::string> lines) {
   std::erase_if(toasts, [&](const Toast& t) { return t.kind == kind && t.title == title; });
-  // Errors wait until they are closed: only other messages make room.
+  // Errors stay until they are closed: only other messages are dropped to make room.
   const auto passing = [](const Toast& t) { return t.kind != ToastKind::error; };
   for (auto it = toasts.begin(); toasts.size() >= 4 && it != toasts.end();)
     it = passing(*it) ? toasts.erase(it) : std::next(it);

@@ -41,13 +41,13 @@ struct SceneDescription;
 /// A scene that can be opened by name.
 struct SceneItem {
   std::string name;
-  std::string doc;         ///< one line
+  std::string doc;         ///< description in one line
   std::string category;    ///< "": none
-  std::string file;        ///< of which its thumbnail is made; "": none is
-  std::string title = {};  ///< as lists show it; "": the name
+  std::string file;        ///< from which its thumbnail is made; "": it has none
+  std::string title = {};  ///< as lists show it; "": the name is shown
 };
 
-/// A folder that is being looked through for files to open.
+/// A folder shown in the file browser.
 struct FolderView {
   struct Entry {
     std::string name;
@@ -55,16 +55,16 @@ struct FolderView {
   };
   std::string path;
   std::vector<Entry> entries;  ///< folders first, then files that can be opened
-  std::string fault;           ///< why there are none; "": there are
+  std::string fault;           ///< why it cannot be read; "": it can
 };
 
-/// A number that the scene declares, to be changed by opening the scene with another one.
+/// A number that the scene declares; changing it opens the scene anew.
 struct SceneParameter {
   std::string name, doc;
   double value = 0;
   std::optional<double> min, max;
 
-  /// Counts are written as whole numbers, limits included, and stay so.
+  /// Whether it is a count: value and limits are whole numbers, and stay so.
   bool whole() const;
 };
 
@@ -72,103 +72,105 @@ struct SceneParameter {
 struct SelectedJoint {
   JointId id;
   JointDef def;
-  BodyId other;  ///< null: the world
+  BodyId other;  ///< the other body; null: the world
 };
 
-/// All that a mesh can collide as, side by side.
+/// A comparison of all collision representations of a mesh.
 struct MeasuredMesh {
   std::shared_ptr<const TriangleMesh> mesh;
   std::vector<RepresentationFacts> all;
 };
 
-/// A key of the flight of the camera.
+/// A key of the camera's flight.
 struct FlightKeyView {
   double time = 0;     ///< [s]
-  std::string follow;  ///< the body that it moves along with; "": none
+  std::string follow;  ///< the body whose motion it follows; "": none
 };
 
-/// What the panels show; filled anew for each picture by the application.
+/// Everything that the panels show; the application fills it anew for each picture.
 struct UiModel {
   std::shared_ptr<const Frame> frame;              ///< never null
   std::vector<SceneItem> const* scenes = nullptr;  ///< never null while drawing
-  /// Pictures of scenes by name, as far as they are made; null: there are none.
+  /// Thumbnails of scenes by name, as far as they exist; null: none.
   const std::map<std::string, UiTextureId>* thumbnails = nullptr;
-  const FolderView* folder = nullptr;  ///< null: none is looked through
-  std::string start_folder;            ///< where looking through begins
+  const FolderView* folder = nullptr;  ///< the file browser; null: closed
+  std::string start_folder;            ///< where the file browser begins
   std::string scene_name, scene_title, scene_doc;
-  std::vector<SceneParameter> const* parameters = nullptr;  ///< of the scene; null: none
+  /// Of the scene; null: it declares none.
+  std::vector<SceneParameter> const* parameters = nullptr;
   std::string opening;         ///< the scene that is being opened, "" when none is
-  double opening_seconds = 0;  ///< for how long [s]
+  double opening_seconds = 0;  ///< for how long it has been [s]
   WorldSettings settings;
   int threads = 0;  ///< 0: one per core
   bool paused = false;
   double speed = 1;
-  bool behind = false;               ///< the simulation does not keep up with real time
+  bool behind = false;               ///< the simulation is slower than real time
   double tick_seconds = 0;           ///< wall time of a step [s]
-  double dropped_seconds = 0;        ///< real time given up [s]
-  uint64_t first_tick = 0;           ///< how far stepping back reaches
-  uint64_t last_tick = 0;            ///< the newest on this course of history
-  std::vector<uint64_t> deed_ticks;  ///< at which a person changed something
-  uint64_t next_tick = 1;            ///< the one that is, or would be, computed now
-  double under_way_seconds = 0;      ///< since when it is; 0 while none is [s]
-  uint64_t way_to = 0;               ///< the tick that was asked for, and is not reached; 0: none
-  std::string asking;                ///< what the world is being asked; "" for nothing
-  double asking_seconds = 0;         ///< for how long [s]
+  double dropped_seconds = 0;        ///< real time skipped because of that [s]
+  uint64_t first_tick = 0;           ///< earliest tick that can be reached by stepping back
+  uint64_t last_tick = 0;            ///< latest tick known on the present course of the run
+  std::vector<uint64_t> deed_ticks;  ///< ticks at which the user changed something
+  uint64_t next_tick = 1;            ///< the tick being computed, or to be computed next
+  double under_way_seconds = 0;      ///< how long it has been computed; 0: it is not [s]
+  uint64_t way_to = 0;               ///< the tick being sought but not reached; 0: none
+  std::string asking;                ///< the query that the world is answering; "": none
+  double asking_seconds = 0;         ///< for how long it has been [s]
   std::optional<Error> fault;        ///< why the simulation stopped
   double picture_seconds = 0;        ///< from one picture to the next, smoothed [s]
   double drawing_seconds = 0;        ///< wall time of drawing one picture [s]
-  std::string renderer;              ///< as the driver says
+  std::string renderer;              ///< name that the graphics driver reports
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;
   const WorldComparison* comparison = nullptr;  ///< null: there is no world B
   const Measures* measures = nullptr;           ///< never null while drawing
-  std::optional<double> past_share;  ///< of the past of curves, computed; none: nothing is
+  /// Progress of computing the past of curves, 0..1; none: not under way.
+  std::optional<double> past_share;
   const TimeMarks* marks = &no_time_marks;
   const TickClock* clock = &usual_tick_clock;
   const RulerView* ruler = &no_rulers;
-  std::vector<FlightKeyView> flight;  ///< the keys of a flight, by time
-  bool flying = false;                ///< the camera is on it
-  /// Names of all that assertions of this scene can speak of; null: of none.
+  std::vector<FlightKeyView> flight;  ///< keys of the camera's flight, by time
+  bool flying = false;                ///< the camera is moving along them
+  /// Names of all quantities that assertions of this scene can use; null: none.
   std::shared_ptr<const std::vector<std::string>> quantity_names;
-  std::vector<AssertionView> assertions;  ///< that the scene makes
-  std::optional<LessonView> lesson;       ///< that it teaches
+  std::vector<AssertionView> assertions;  ///< assertions of the scene
+  std::optional<LessonView> lesson;       ///< lesson of the scene
   /// Emitters, sensors, forces and particles of the scene; null: not known yet.
   std::shared_ptr<const SceneDescription> parts;
-  /// By tick; null while nobody looks at them.
+  /// Events by tick; null while no panel shows them.
   std::shared_ptr<const std::vector<WorldEvent>> events;
-  BodyId selected;                              ///< the main one,
-  size_t selected_count = 0;                    ///< of so many
-  std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or known yet
-  /// At the selected body; null: nothing is selected, or known yet.
+  BodyId selected;                              ///< the primary selection,
+  size_t selected_count = 0;                    ///< of this many selected bodies
+  std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or not known yet
+  /// Joints of the selected body; null: nothing is selected, or not known yet.
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
-  std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest; null: none
+  std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest comparison; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
-  bool reading_mesh = false;                           ///< that of the palette
+  bool reading_mesh = false;                           ///< the mesh of the palette is being read
   std::string palette_fault;             ///< why the palette's mesh cannot be placed; "": it can
-  const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
-  std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
+  const ContactView* contact = nullptr;  ///< null: no contact is inspected, or nothing is known yet
+  std::optional<UiRect> selection_box;   ///< box being dragged around bodies [UI units]
   bool has_snapshot = false;
-  const Question* question = nullptr;  ///< to be answered before anything else; null: none
+  const Question* question = nullptr;  ///< modal question; null: none
   const SavePreview* save = nullptr;   ///< null: not known yet
   bool recording = false;
   uint64_t recorded_frames = 0;
-  const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is looked at
+  const MicroscopeRecording* microscope = nullptr;  ///< null: nothing is under the microscope
   int microscope_step = 0;
-  std::string microscope_algorithm;  ///< "" when nothing is under the microscope
+  std::string microscope_algorithm;  ///< "": nothing is under the microscope
   std::string microscope_refusal;    ///< why `microscope` is null
-  bool microscope_waits = false;     ///< it is null until the world stands still
+  bool microscope_waits = false;     ///< the recording is only made once the simulation is paused
 };
 
-// -- what panels ask for -----------------------------------------------------------------------
+// -- requests of panels ------------------------------------------------------------------------
 struct OpenScene {
-  std::string name;  ///< of the list, or a path
+  std::string name;  ///< a name of the list, or a path
 };
-/// Looks through a folder for files to open; "": no longer.
+/// Opens a folder in the file browser; "" closes the browser.
 struct BrowseFolder {
   std::string path;
 };
-/// The scene anew, with another value of a number that it declares.
+/// Opens the scene anew with another value of a number that it declares.
 struct ChangeParameter {
   std::string name;
   double value = 0;
@@ -182,23 +184,23 @@ struct ChangeThreads {
 struct ChangeSpeed {
   double speed = 1;
 };
-/// Longer ticks are shown, with a way out of them: what is faster nobody would cancel [s].
+/// Ticks that take longer are shown, with a button to cancel them [s].
 constexpr double slow_tick_seconds = 1;
-/// Gives up the tick under way.
+/// Cancels the tick under way.
 struct CancelTick {};
-/// The question to the world that is under way.
+/// Cancels the query under way.
 struct CancelQuestion {};
-/// A question that takes longer is shown, with a way out of it [s].
+/// Queries that take longer are shown, with a button to cancel them [s].
 constexpr double slow_question_seconds = 0.3;
-/// Pauses and shows another moment.
+/// Pauses and goes to a tick.
 struct SeekTick {
   uint64_t tick = 0;
 };
-/// Writes the scene with what was changed.
+/// Saves the scene with its changes.
 struct WriteScene {
   std::string file;
 };
-/// Watches one more quantity, one less, or writes what was seen of all.
+/// Adds or removes a plotted quantity, or writes all as CSV.
 struct AddCurve {
   Quantity quantity;
 };
@@ -206,19 +208,19 @@ struct RemoveCurve {
   size_t index = 0;
 };
 struct WriteMeasures {};
-/// The past of curves is not computed.
+/// Stops computing the past of curves.
 struct LeavePast {};
-/// The same of a quantity by the name that assertions know it by.
+/// Adds a plotted quantity by the name that assertions use.
 struct AddNamedCurve {
   std::string name;
 };
-/// Writes the picture of all curves.
+/// Writes the plot as an image.
 struct WritePlot {};
-/// Changes bookmarks and the span that is looped.
+/// Changes bookmarks and the span to be looped.
 struct EditMarks {
   std::function<void(TimeMarks&)> change;
 };
-/// Goes to a moment, by computing it where it has not been seen yet.
+/// Seeks to a time; ticks not seen yet are computed.
 struct GoToMoment {
   uint64_t tick = 0;
 };
@@ -228,8 +230,8 @@ struct RemoveReading {
 struct RemoveFlightKey {
   size_t index = 0;
 };
-/// A key moves along with a body from now on; "": with none. At the moment of that key only, for
-/// that says where the body is then.
+/// Makes a key of the flight follow a body; "": none. Only at the key's own time, because the
+/// body's pose must be known.
 struct FollowFromKey {
   size_t index = 0;
   std::string body;
@@ -238,34 +240,34 @@ struct SelectBody {
   BodyId id;
 };
 struct SelectContact {
-  std::optional<ContactPick> contact;  ///< none: look at none
+  std::optional<ContactPick> contact;  ///< none: ends the inspection
 };
 struct FocusBody {
   BodyId id;
 };
-/// Moves, turns or scales the selected bodies, about the main one.
+/// Moves, turns or scales the selected bodies about the primary one.
 struct DisplaceSelected {
-  Displacement way;  ///< its pivot and frame are those of the handles
+  Displacement way;  ///< with the pivot and frame of the handles
 };
-/// Changes the definition of a body, as it is when the change is carried out.
+/// Changes the definition of a body as it is when the request is executed.
 struct EditBody {
   BodyId id;
-  std::string what;  ///< the deed, as undo names it
+  std::string what;  ///< description of the change for undo
   std::function<void(BodyDef&)> change;
 };
-/// Lets a mesh of a body collide in another way, as soon as that is made.
+/// Changes the collision representation of a mesh, as soon as the new one has been computed.
 struct ChangeMeshMode {
   BodyId id;
-  size_t group = 0;  ///< of shape_groups()
+  size_t group = 0;  ///< index into shape_groups()
   MeshMode mode = MeshMode::triangle_mesh;
   std::shared_ptr<const MeshSource> source;
-  std::string what;  ///< the deed, as undo names it
+  std::string what;  ///< description of the change for undo
 };
-/// Measures all that a mesh can collide as.
+/// Compares all collision representations of a mesh.
 struct MeasureMesh {
   std::shared_ptr<const TriangleMesh> mesh;
 };
-/// The same of a joint.
+/// The same for a joint.
 struct EditJoint {
   JointId id;
   std::string what;
@@ -274,33 +276,33 @@ struct EditJoint {
 struct RemoveJoint {
   JointId id;
 };
-/// Puts another description in the place of that of a part of the scene.
+/// Replaces the description of a part of the scene.
 struct EditPart {
   std::string name;
   PartDescription before, after;
-  std::string what;  ///< the deed, as undo names it
+  std::string what;  ///< description of the change for undo
 };
 struct RemovePart {
   std::string name;
   PartDescription part;
 };
-/// World B beside this one from now on, as it is chosen here; also where there is one already.
+/// Starts a comparison with a world B made by these choices, or restarts it.
 struct Compare {
   WorldChoice choice;
 };
 struct EndCompare {};
-/// The answer of this number to the model's question.
+/// Gives the answer with this index to the model's question.
 struct AnswerQuestion {
   size_t choice = 0;
 };
 struct TurnLessonPage {
   size_t page = 0;
 };
-/// To the question of the page that is shown.
+/// Answers the question of the page shown.
 struct AnswerLesson {
   std::string said;
 };
-/// Opens the scene with the settings that the page of the lesson chooses.
+/// Opens the scene with the settings of the lesson's page.
 struct TakeLessonChoice {};
 using UiRequest =
     std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
@@ -344,92 +346,95 @@ enum class PanelId : uint8_t {
 };
 constexpr size_t panel_count = 20;
 
-/// A part of the scene that is looked at: "emitters", "rain".
+/// The part of the scene selected in the panel of parts: "emitters", "rain".
 struct ChosenPart {
   std::string list, name;
 };
 
-/// How much work a picture is worth; automatic: as good as the machine draws fluently.
+/// Quality of the picture; automatic: the best that the machine draws fluently.
 enum class PictureQuality : uint8_t { automatic, draft, standard, high };
 
-/// What a person chose to see under the microscope, instead of what the scene asks for.
+/// The user's choices for the microscope, which take precedence over the scene's.
 struct MicroscopeChoice {
-  std::string algorithm;    ///< "": the scene's
-  std::optional<int> step;  ///< none: as the clock says
+  std::string algorithm;    ///< "": that of the scene
+  std::optional<int> step;  ///< none: advances with time
 };
 
-/// How the curves of the plot stand.
+/// Layout of the plotted curves.
 enum class PlotForm : uint8_t {
-  apart,     ///< each in a frame of its own
-  together,  ///< in one frame, each with its own axis
-  phase      ///< two quantities against each other
+  apart,     ///< each in a plot of its own
+  together,  ///< in one plot with an axis per unit
+  phase      ///< phase plot of two quantities
 };
 struct PlotChoice {
   PlotForm form = PlotForm::apart;
-  size_t across = 0, up = 1;  ///< of a phase plot: which of the curves
-  std::string search;         ///< for one more curve
-  /// What was found last, and by what in which names.
+  size_t across = 0, up = 1;  ///< indices of the two curves of the phase plot
+  std::string search;         ///< for a quantity to add
+  /// Results of the last search, with the search text and list of names that they belong to.
   std::vector<std::string> found;
   std::string found_by;
   std::shared_ptr<const std::vector<std::string>> found_in;
 };
 
-/// Numbers that stand for a drag of handles.
+/// A displacement typed instead of dragging handles.
 struct TypedDisplacement {
   Vec3 shift = Vec3::Zero();     ///< [m]
   Vec3 turn_deg = Vec3::Zero();  ///< about x, then y, then z
   double scale = 1;
 };
 
-/// A value that a field did not take.
+/// A value that a field rejected.
 struct RefusedValue {
-  std::string field;  ///< the mark of its widget; "": none
-  std::string words;  ///< why
-  double until = 0;   ///< when it has been said for long enough, on the clock of Dear ImGui [s]
+  std::string field;  ///< name of the field's widget; "": none
+  std::string words;  ///< reason
+  double until = 0;   ///< when the reason stops being shown, on Dear ImGui's clock [s]
 };
 
-/// What belongs to the panels themselves and outlives a picture.
+/// State of the panels that persists between pictures.
 struct UiState {
   bool visible[panel_count] = {};
-  bool hidden = false;  ///< Tab: no panels at all
+  bool hidden = false;  ///< all panels are hidden (Tab)
   Overlays overlays;
   MicroscopeChoice microscope;
-  EventFilter event_filter;                         ///< of the list, and of marks and jumps
-  BuildChoice build;                                ///< what clicks build,
-  bool building = false;                            ///< while they do
-  bool choosing_mesh = false;                       ///< the files are for the palette
-  ChosenPart part;                                  ///< whose values are shown
-  HandleSettings handles;                           ///< at the selected bodies
-  ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
-  PlotChoice plot;                                  ///< of the curves
-  bool ruling = false;                              ///< clicks are points of a ruler,
-  bool ruling_angle = false;                        ///< or of a protractor
-  std::optional<uint64_t> span_began;               ///< while a span of time is being drawn
-  RefusedValue refused;                             ///< the last one
-  TypedDisplacement typed;                          ///< in place of a drag
-  uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
-  std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
+  EventFilter event_filter;                    ///< for the list, marks and jumps
+  BuildChoice build;                           ///< what clicks create,
+  bool building = false;                       ///< if this is set
+  bool choosing_mesh = false;                  ///< the file browser chooses a mesh for the palette
+  ChosenPart part;                             ///< the part whose values are shown
+  HandleSettings handles;                      ///< handles at the selected bodies
+  ComparedAs compared_as = ComparedAs::ghost;  ///< how world B is shown
+  PlotChoice plot;                             ///< layout of the plotted curves
+  bool ruling = false;                         ///< clicks place points of a ruler,
+  bool ruling_angle = false;                   ///< or of a protractor
+  std::optional<uint64_t> span_began;          ///< one end of the span being dragged
+  RefusedValue refused;                        ///< the last one
+  TypedDisplacement typed;                     ///< typed instead of a drag
+  uint64_t scrubbed_to = 0;                    ///< the tick last requested by the time line
+  /// Values of the scene's numbers while their sliders are dragged.
+  std::map<std::string, double> pulled_parameters;
   PictureQuality quality = PictureQuality::automatic;
   Theme theme = Theme::dark;
-  double zoom = 1;  ///< of panels and text, times the monitor's
+  double zoom = 1;  ///< of panels and text, times the monitor's scale
   std::deque<Toast> toasts;
-  std::string save_fault;    ///< why the last try to save failed; "": it did not
+  std::string save_fault;    ///< why the last attempt to save failed; "": it did not
   std::string save_file;     ///< where the scene is to be written
-  std::string lesson_typed;  ///< not yet given as an answer
-  bool lesson_hint = false;  ///< of this page, was asked for
+  std::string lesson_typed;  ///< answer being typed
+  bool lesson_hint = false;  ///< the hint of this page was requested
   std::string search;
-  std::string category;                  ///< of the scenes that are listed; "": all
-  std::vector<std::string> seen_scenes;  ///< listed in the last picture, on the screen
+  std::string category;                  ///< category of scenes to list; "": all
+  std::vector<std::string> seen_scenes;  ///< scenes whose entries were visible in the last picture
   int search_cursor = 0;
-  bool search_opened = false;              ///< the field takes the keyboard in the next frame
-  bool search_focus = false;               ///< the same, but what was typed stays
-  float content_height[panel_count] = {};  ///< of the last frame, 0: unknown
-  uint32_t raised[panel_count] = {};       ///< order of being shown; the greatest is the newest
+  /// The search field gets the keyboard in the next frame, its text selected.
+  bool search_opened = false;
+  bool search_focus = false;               ///< the same, but without selecting the text
+  float content_height[panel_count] = {};  ///< in the last frame; 0: unknown
+  /// Sequence number of the last raise; the greatest is the newest.
+  uint32_t raised[panel_count] = {};
   uint32_t raises = 0;
 
-  /// Puts a panel before those that are shown already, where not all have room.
+  /// Gives a panel precedence over those already shown when not all fit.
   void raise(PanelId id) { raised[size_t(id)] = ++raises; }
-  /// Raises what is shown and was not before.
+  /// Raises panels that have become visible.
   void raise_new();
   bool& shows(PanelId id) { return visible[size_t(id)]; }
   bool shows(PanelId id) const { return visible[size_t(id)]; }

@@ -67,8 +67,8 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 c, float r, ImU32 colour) {
   }
 }
 
-/// Where the middle of a tooltip under a bar may stand nearest to where it would, so that it lies
-/// over no cross of a panel.
+/// The x of a tooltip's centre below a bar, nearest to `middle`, at which it covers no close button
+/// of a panel.
 float beside_crosses(const UiHost& host, float middle, float half, float y, float height) {
   for (const auto& [name, cross] : host.widgets()) {
     const float left = cross.x - half, right = cross.x + cross.width + half;
@@ -81,9 +81,9 @@ float beside_crosses(const UiHost& host, float middle, float half, float y, floa
   return middle;
 }
 
-/// Beside the panel of the last item, towards the middle of the picture, so that it covers nothing
-/// of the panel; under a bar, whose other buttons are read next; where there is no room near the
-/// pointer.
+/// Places a tooltip beside the panel of the last item, towards the middle of the picture, so that
+/// it does not cover the panel; below a bar, so that the other buttons stay visible; or, if there
+/// is no room, near the pointer.
 void place_tooltip(const UiHost& host, float width) {
   constexpr float gap = 6;
   const float left = ImGui::GetWindowPos().x, right = left + ImGui::GetWindowWidth();
@@ -106,7 +106,7 @@ void place_tooltip(const UiHost& host, float width) {
 }
 
 std::string fixed_text(double x, int decimals) {
-  // -0.00 says no more than 0.00
+  // -0.00 is shown as 0.00
   if (std::abs(x) < 0.5 * std::pow(10.0, -decimals)) x = 0;
   return fmt::format("{:.{}f}", x, decimals);
 }
@@ -202,7 +202,7 @@ void value_row(std::string_view label, std::string_view value, uint32_t colour) 
 
 void vector_row(std::string_view label, const Vec3& v, int decimals) {
   const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
-  // Room for two figures before the point and a sign; where there is not enough they stand closer.
+  // Room for a sign and two digits before the point; if space is short, the numbers are set closer.
   const float place = width_of("  " + fixed_text(-88, decimals));
   const std::string numbers[] = {fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
                                  fixed_text(v.z(), decimals)};
@@ -246,7 +246,7 @@ bool toggle(PanelContext& context, std::string_view name, const char* label, boo
   return clicked;
 }
 
-/// Dear ImGui alone would break numbers at their points, too.
+/// Dear ImGui would also break lines at the decimal points of numbers.
 void wrapped(std::string_view text, uint32_t colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0);
@@ -275,7 +275,7 @@ std::string shortened(std::string_view text, float width) {
   const float room = width - ImGui::CalcTextSize("…").x;
   size_t end = 0;
   for (size_t i = 0; i < text.size();) {
-    size_t next = i + 1;  // behind a whole UTF-8 character
+    size_t next = i + 1;  // after a whole UTF-8 character
     while (next < text.size() && (text[next] & 0xC0) == 0x80) ++next;
     if (!fits(text.substr(0, next), room)) break;
     if (text[i] != ' ') end = next;
@@ -286,7 +286,7 @@ std::string shortened(std::string_view text, float width) {
 
 std::string in_lines(std::string_view text, float width) {
   std::string out;
-  size_t line = 0;  // where the last one begins
+  size_t line = 0;  // beginning of the last line
   while (true) {
     const size_t end = text.find_first_of(" \n"), before = out.size();
     out += text.substr(0, end);
@@ -316,7 +316,7 @@ struct Prefix {
   double scale;
   std::string_view name;
 };
-/// The prefix under which a size has one to three figures before the point.
+/// The SI prefix with which a size has one to three digits before the point.
 Prefix prefix_of(double size) {
   constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"},  {1e3, "k"},
                                  {1, ""},    {1e-3, "m"}, {1e-6, "µ"}};

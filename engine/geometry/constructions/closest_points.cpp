@@ -13,14 +13,14 @@ double clamp01(double x) {
   return std::min(std::max(x, 0.0), 1.0);
 }
 
-/// Weights of the projection of `p` on the plane of a triangle, times |n|^2; n is the cross product
-/// of two sides.
+/// Barycentric weights of the projection of `p` on the plane of a triangle, times |n|^2, where n is
+/// the cross product of two sides.
 Vec3 edge_functions(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n) {
   return {n.dot((c - b).cross(p - b)), n.dot((a - c).cross(p - c)), n.dot((b - a).cross(p - a))};
 }
 
-/// Whether a cross product of two sides has lost so many digits to cancellation that what depends
-/// on its direction has to be computed with twice as many.
+/// Whether the cross product of two sides has lost so many digits to cancellation that quantities
+/// depending on its direction must be computed in double-double arithmetic.
 bool is_narrow(const Vec3& n, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double sine = 1e-3;
   const double longest =
@@ -28,7 +28,7 @@ bool is_narrow(const Vec3& n, const Vec3& a, const Vec3& b, const Vec3& c) {
   return !(n.squaredNorm() > sine * sine * longest * longest);
 }
 
-/// Where a segment passes through the inside of a triangle, if it does.
+/// The point where a segment crosses the interior of a triangle, if it does.
 std::optional<ClosestPair> crossing(const Vec3& s0, const Vec3& s1, const std::array<Vec3, 3>& t) {
   const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]);
   if (is_narrow(n, t[0], t[1], t[2])) {
@@ -82,7 +82,7 @@ SegmentPair closest_segment_segment(const Vec3& a0, const Vec3& a1, const Vec3& 
     out.squared_distance = (out.on_a - out.on_b).squaredNorm();
     return out;
   };
-  // Where the lines are nearest. From cross products: the normal equations would lose half the
+  // Nearest points of the lines, from cross products: the normal equations would lose half the
   // digits at small angles.
   const Vec3 n = u.cross(v);
   const double square = n.squaredNorm(), lengths = u.squaredNorm() * v.squaredNorm();
@@ -108,7 +108,7 @@ SegmentPair closest_line_segment(const Vec3& origin, const Vec3& direction, cons
   SegmentPair out;
   const Vec3 v = b1 - b0, w = b0 - origin;
   const double length = direction.squaredNorm();
-  // Across the line only the parts of w and v perpendicular to it count; cross products keep all
+  // Only the components of w and v perpendicular to the line matter; cross products keep all their
   // digits at small angles.
   const Vec3 n = direction.cross(v);
   if (!(length > 0)) {
@@ -133,15 +133,15 @@ TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
   TrianglePoint out;
   if (w.minCoeff() > 0) {
     out.barycentric = w / w.sum();
-    // From a corner, so that distant triangles keep their accuracy.
+    // Relative to a corner, so that triangles far from the origin keep their accuracy.
     out.point = a + out.barycentric.y() * (b - a) + out.barycentric.z() * (c - a);
     out.feature = TriangleFeature::face;
     out.squared_distance = (p - out.point).squaredNorm();
     return out;
   }
-  // On a side beyond which p lies. The foot of the perpendicular on such a side is the answer, as
-  // the triangle lies on the other side of it; to compare it with other sides by distance would
-  // lose half the digits of the point.
+  // The nearest point is on a side whose line separates p from the triangle. If the foot of the
+  // perpendicular lies on such a side it is the answer, since the triangle is on the other side of
+  // that line; comparing sides by distance would lose half the digits of the point.
   const Vec3* corners[3] = {&a, &b, &c};
   out.squared_distance = std::numeric_limits<double>::infinity();
   for (unsigned k = 0; k < 3; ++k) {

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// A vector of about 106 bits.
+/// A vector in double-double arithmetic (about 106 bits).
 struct WideVec3 {
   std::array<DoubleDouble, 3> x;
 };
@@ -58,7 +58,7 @@ std::optional<double> narrow_triangle_crossing(const Vec3& s0, const Vec3& s1,
   if ((d0.high > 0 && d1.high > 0) || (d0.high < 0 && d1.high < 0)) return std::nullopt;
   const double whole = (d0 + minus(d1)).high;
   if (whole == 0) return std::nullopt;
-  // The line passes between the sides when it sees them all turn the same way.
+  // The line passes through the triangle if it turns the same way about all three sides.
   const WideVec3 line = between(s0, s1);
   bool left = false, right = false;
   for (size_t k = 0; k < 3; ++k) {

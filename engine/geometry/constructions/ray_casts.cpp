@@ -12,7 +12,8 @@ RayHit inside_hit(const Ray& ray) {
   return {0, length > 0 ? Vec3(-ray.direction / length) : Vec3(Vec3::Zero())};
 }
 
-/// The part of a ray inside a convex solid, narrowed piece by piece; remembers the entry's normal.
+/// The part of a ray inside a convex solid, clipped by one boundary after the other; records the
+/// normal at the entry.
 struct Interval {
   double t0 = -std::numeric_limits<double>::infinity();
   double t1 = std::numeric_limits<double>::infinity();
@@ -27,7 +28,8 @@ struct Interval {
   }
   void leave(double t) { t1 = std::min(t1, t); }
 
-  /// The half-space n.x <= offset (n need not be unit for the interval, but is for the normal).
+  /// Clips to the half space n.x <= offset. n need not be a unit vector for the interval, but must
+  /// be for the normal.
   void clip(const Ray& ray, const Vec3& n, double offset) {
     const double height = n.dot(ray.origin) - offset, rate = n.dot(ray.direction);
     if (rate < 0) {
@@ -42,7 +44,7 @@ struct Interval {
   std::optional<RayHit> hit(const Ray& ray, double t_max) const {
     if (empty || t0 > t1 || t1 < 0 || t0 > t_max) return std::nullopt;
     if (t0 < 0) {
-      // Inside; on the surface and going out is a miss.
+      // The origin is inside; a ray that starts on the surface and leaves is a miss.
       if (t1 <= 0) return std::nullopt;
       return inside_hit(ray);
     }
@@ -50,7 +52,7 @@ struct Interval {
   }
 };
 
-/// Narrows to the infinite cylinder about Y.
+/// Clips to the infinite cylinder about Y.
 void clip_round(Interval& interval, const Ray& ray, double radius) {
   const double dx = ray.direction.x(), dz = ray.direction.z();
   const double ox = ray.origin.x(), oz = ray.origin.z();
@@ -94,7 +96,7 @@ std::optional<RayHit> ray_sphere(const Ray& ray, const Vec3& centre, double radi
   const double a = ray.direction.squaredNorm(), b = m.dot(ray.direction);
   if (c < 0) return inside_hit(ray);
   if (!(a > 0) || b >= 0) return std::nullopt;
-  // From the foot of the perpendicular (Haines et al. 2019): accurate for distant origins.
+  // From the foot of the perpendicular (Haines et al. 2019), which is accurate for distant origins.
   const Vec3 foot = m - (b / a) * ray.direction;
   const double discriminant = a * (radius * radius - foot.squaredNorm());
   if (discriminant < 0) return std::nullopt;
@@ -124,7 +126,8 @@ std::optional<RayHit> ray_cylinder(const Ray& ray, double half_height, double ra
 }
 
 std::optional<RayHit> ray_capsule(const Ray& ray, double half_height, double radius, double t_max) {
-  // The union of two balls and a cylinder: entering it is entering the first of them.
+  // A capsule is the union of two balls and a cylinder: the ray enters it where it enters the first
+  // of them.
   std::optional<RayHit> best = ray_cylinder(ray, half_height, radius, t_max);
   for (const double y : {half_height, -half_height}) {
     const auto hit = ray_sphere(ray, Vec3(0, y, 0), radius, t_max);
@@ -142,13 +145,14 @@ std::optional<RayHit> ray_convex(const Ray& ray, const Plane* planes, size_t cou
 RayShear::RayShear(const Ray& ray) : origin_(ray.origin) {
   const Vec3& d = ray.direction;
   const double x = std::fabs(d.x()), y = std::fabs(d.y()), z = std::fabs(d.z());
-  // The longest component's axis, without branches, which random rays would mislead.
+  // The axis of the longest component, computed without branches, since random rays would be
+  // mispredicted.
   const int last = z > std::max(x, y);
   z_ = 2 * last + (1 - last) * (y > x);
   valid_ = d[z_] != 0 && d.allFinite() && ray.origin.allFinite();
   if (!valid_) return;
   constexpr std::array<int, 4> after = {1, 2, 0, 1};
-  const int backward = d[z_] < 0;  // exchanges the others, which keeps the winding
+  const int backward = d[z_] < 0;  // swaps the other two axes, which preserves the winding
   x_ = after[size_t(z_ + backward)];
   y_ = after[size_t(z_ + 1 - backward)];
   shear_x_ = d[x_] / d[z_];

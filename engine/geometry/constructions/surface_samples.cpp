@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// The item whose share of a running sum holds a fraction of all.
+/// Index of the item in which a cumulative sum reaches `fraction` of its total.
 size_t item_at(const std::vector<double>& before, double fraction) {
   const auto above =
       std::upper_bound(before.begin() + 1, before.end() - 1, fraction * before.back());

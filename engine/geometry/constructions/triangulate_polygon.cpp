@@ -9,10 +9,11 @@ namespace tumble {
 namespace {
 
 constexpr size_t most_for_clipping = 10'000;
-/// Up to this many corners the best ear is sought, beyond the first one is taken.
+/// Up to this many corners the best ear is chosen, with more the first one found.
 constexpr size_t most_for_quality = 32;
 
-/// The polygon in the coordinate plane it faces most, counter-clockwise there.
+/// Projection of the polygon to the coordinate plane to which it is most nearly parallel,
+/// counter-clockwise there.
 std::vector<Vec2> shadow(std::span<const Vec3> vertices, std::span<const uint32_t> corners) {
   const Vec3& origin = vertices[corners[0]];
   Vec3 n = Vec3::Zero();
@@ -33,14 +34,14 @@ std::vector<Vec2> shadow(std::span<const Vec3> vertices, std::span<const uint32_
 
 struct Clipper {
   std::vector<Vec2> p;
-  std::vector<uint32_t> ring;  // places in p that are left
+  std::vector<uint32_t> ring;  // indices into p of the remaining corners
 
   bool holds(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& q) const {
     if (q == a || q == b || q == c) return false;
     return orientation(a, b, q) >= 0 && orientation(b, c, q) >= 0 && orientation(c, a, q) >= 0;
   }
 
-  /// Shape of the ear at place k of the ring, 0 for a bad one, 1 at best; negative when it is none.
+  /// Quality of the ear at index k of the ring: 0 degenerate, 1 best; negative if it is not an ear.
   double ear(size_t k) const {
     const size_t n = ring.size();
     const Vec2 &a = p[ring[(k + n - 1) % n]], &b = p[ring[k]], &c = p[ring[(k + 1) % n]];

@@ -10,18 +10,19 @@ namespace tumble {
 namespace {
 
 constexpr double half_ulp = 0x1p-53;
-/// Of tens of thousands of awkward queries those that take more than 176 have no end that is near.
+/// Limit of steps. Of tens of thousands of difficult queries, those that took more than 176 did not
+/// converge soon.
 constexpr int most_march_steps = 192;
 constexpr double shortest_step = 0x1p-50;
 
-/// The hull at one time, with up to two directions that may separate it from the origin.
+/// The hull at one time, with up to two candidate directions that separate it from the origin.
 struct HullMoment {
   double t = 0;
   std::array<Vec3, 4> corner;
   Vec4 weights = Vec4::Zero();  ///< of the nearest point
   double distance = 0;          ///< of the nearest point, approximately
   std::array<Vec3, 2> direction{Vec3::Zero(), Vec3::Zero()};
-  std::array<double, 2> margin{-1, -1};  ///< least of direction . corner
+  std::array<double, 2> margin{-1, -1};  ///< least dot product of a direction with the corners [m]
 
   int best() const { return margin[1] > margin[0] ? 1 : 0; }
 };
@@ -31,7 +32,7 @@ Vec3 unit_or_zero(const Vec3& v) {
   return length > 1e-150 ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
-/// v without its part along e, twice: once leaves rounding of the size of v.
+/// Removes from v its component along e; twice, since once leaves a residue of the rounding of v.
 void remove_along(const Vec3& e, double square, Vec3& v) {
   if (!(square > 0)) return;
   for (int k = 0; k < 2; ++k) v -= (v.dot(e) / square) * e;
@@ -46,7 +47,7 @@ class HullMarch {
       size = std::max(
           {size, start_[size_t(i)].cwiseAbs().maxCoeff(), end_[size_t(i)].cwiseAbs().maxCoeff()});
     }
-    // To magnitudes about 1, exactly.
+    // Scaled by a power of two to magnitudes about 1, which is exact.
     if (size > 0 && (size < 0x1p-100 || size > 0x1p100)) {
       const double factor = std::ldexp(1.0, -std::clamp(std::ilogb(size), -1000, 1000));
       for (int i = 0; i < n_; ++i) {
@@ -56,8 +57,9 @@ class HullMarch {
       size *= factor;
       separation_ *= factor;
     }
-    // A corner at time t: 5 units of rounding per coordinate; its product with a direction: 3 units
-    // of its length; together under 15 for a size measured by the largest coordinate.
+    // A corner at time t has at most 5 units of rounding per coordinate, and its product with a
+    // direction 3 units of its length: together under 15 for a size measured by the largest
+    // coordinate.
     rounding_ = 20 * half_ulp * size;
     needed_ = separation_ * (1 + 8 * half_ulp) + rounding_;
   }
@@ -83,7 +85,7 @@ class HullMarch {
       if (step <= sure) return in_doubt(now);
       step = std::max(sure, std::min(0.25 * step, towards_contact(now)));
     }
-    // Too many steps: whatever is left may hold a contact.
+    // Step limit reached: the remaining interval may contain a contact.
     MovingContact rest = contact_at(now);
     rest.t_hi = 1;
     return rest;
@@ -129,8 +131,8 @@ class HullMarch {
     Vec3 nearest = Vec3::Zero();
     for (size_t i = 0; i < size_t(n_); ++i) nearest += m.weights[int(i)] * c[i];
     m.distance = nearest.norm();
-    // Nearest points of features that nearly touch have few digits: what must be perpendicular to
-    // an edge is made so.
+    // The nearest points of features that nearly touch have few correct digits: directions that
+    // must be perpendicular to an edge are made so.
     for (size_t i = 0; i < edge_count; ++i) {
       const double along = nearest.dot(edges[i]);
       if (along * along <= 256 * rounding_ * rounding_ * square[i])
@@ -150,7 +152,7 @@ class HullMarch {
     return out;
   }
 
-  /// Whether [a.t, b.t] is proven free. What separates is handed on to b.
+  /// Whether [a.t, b.t] is proven free of contact. The separating direction is passed on to b.
   bool free_between(const HullMoment& a, HullMoment& b) const {
     const size_t first = size_t(a.best()), last = size_t(b.best());
     if (b.margin[last] > needed_ && turning(a, a.direction[first], b, b.direction[last]))
@@ -164,7 +166,8 @@ class HullMarch {
         }
       }
     }
-    // Passing a corner: neither end's direction does, the one between does.
+    // When the nearest feature changes at a corner, neither end's direction separates throughout,
+    // but the mean of the two may.
     return constant(a, b, unit_or_zero(a.direction[0] + b.direction[0]));
   }
 
@@ -178,7 +181,7 @@ class HullMarch {
     return true;
   }
 
-  /// The middle Bernstein coefficients for a direction that turns from wa to wb.
+  /// Proof by the middle Bernstein coefficients for a direction that turns from wa to wb.
   bool turning(const HullMoment& a, const Vec3& wa, const HullMoment& b, const Vec3& wb) const {
     for (size_t i = 0; i < size_t(n_); ++i) {
       if (!(0.5 * (wa.dot(b.corner[i]) + wb.dot(a.corner[i])) > needed_)) return false;
@@ -186,7 +189,7 @@ class HullMarch {
     return true;
   }
 
-  /// How long the best constant direction separates.
+  /// The length of time for which the best constant direction separates.
   double sure_step(const HullMoment& m) const {
     double out = 0;
     for (const Vec3& w : m.direction) {
@@ -201,8 +204,8 @@ class HullMarch {
     return out;
   }
 
-  /// A little before the nearest points would meet at their present speed; with `way` -1, back in
-  /// time.
+  /// A time slightly before the nearest points would meet at their present velocity; with `way` -1,
+  /// back in time.
   double towards_contact(const HullMoment& m, double way = 1) const {
     const int k = m.best();
     Vec3 speed = Vec3::Zero();
@@ -225,7 +228,7 @@ class HullMarch {
     const Vec3& w = m.direction[size_t(m.best())];
     if (m.margin[size_t(m.best())] > 0) {
       out.normal = -w;
-    } else {  // touching: the common normal, against the approach; else any
+    } else {  // touching: the common normal, opposed to the approach; otherwise any direction
       Vec3 n = m.direction[1], speed = Vec3::Zero();
       for (size_t i = 0; i < size_t(n_); ++i) speed += m.weights[int(i)] * (end_[i] - start_[i]);
       if (n.isZero()) n = unit_or_zero(speed);
@@ -235,7 +238,7 @@ class HullMarch {
     return out;
   }
 
-  /// From `m` on nothing is proven free. How long this lasts, by growing steps.
+  /// Nothing is proven free from `m` on. Determines with growing steps how long that lasts.
   MovingContact in_doubt(const HullMoment& m) const {
     MovingContact out = contact_at(m);
     const auto surely_within = [&](const HullMoment& at) {
@@ -267,9 +270,9 @@ class HullMarch {
     }
   }
 
-  /// The time from which they are surely apart, between `doubtful`, when they are not, and `apart`;
-  /// to 1e-10. Back by the speed at which the nearest points part, and by halves where this does
-  /// not help.
+  /// The time, to 1e-10, from which the two are certainly apart; between `doubtful`, when they are
+  /// not, and `apart`. Steps back by the speed at which the nearest points separate, and bisects
+  /// where this does not help.
   template <class SurelyApart>
   double part_after(double doubtful, HullMoment apart, const SurelyApart& surely_apart) const {
     constexpr double known = 1e-10;
@@ -294,8 +297,8 @@ class HullMarch {
   std::array<Vec3, 4> start_, end_;
   int n_;
   double separation_;
-  double rounding_ = 0;  ///< of any direction . corner
-  double needed_ = 0;    ///< what a computed product must exceed
+  double rounding_ = 0;  ///< of the product of any direction and corner
+  double needed_ = 0;    ///< what a computed product must exceed to be certainly positive
 };
 
 }  // namespace

@@ -9,26 +9,27 @@
 namespace tumble {
 namespace {
 
-/// q(t) = c + 2 b t + a t^2 = |x(t)|^2 - r^2 and what its signs say, from the doubles given.
+/// Exact signs of q(t) = c + 2 b t + a t^2 = |x(t)|^2 - r^2 and of quantities derived from it, for
+/// the given doubles.
 class SphereQuadratic {
  public:
   SphereQuadratic(const MovingSphere& a, const MovingSphere& b) : a_(a), b_(b) {}
 
-  /// q(t).
+  /// Sign of q(t).
   int sign(double t) const {
     return exact_sign([&]<class T>(T) {
       const Triple<T> x = t == 0 ? start<T>() : t == 1 ? end<T>() : start<T>() + way<T>() * t;
       return x.dot(x) - reach<T>();
     });
   }
-  /// q'(t): whether the centres still approach.
+  /// Sign of q'(t): negative while the centres approach.
   int slope_sign(double t) const {
     return exact_sign([&]<class T>(T) {
       const Triple<T> w = way<T>();
       return (t == 0 ? start<T>() : start<T>() + w * t).dot(w);
     });
   }
-  /// b^2 - a c.
+  /// Sign of b^2 - a c.
   int discriminant_sign() const {
     return exact_sign([&]<class T>(T) {
       const Triple<T> x = start<T>(), w = way<T>();
@@ -36,12 +37,12 @@ class SphereQuadratic {
       return along * along - w.dot(w) * (x.dot(x) - reach<T>());
     });
   }
-  /// About where the root is.
+  /// An approximation of the earlier root.
   double root() const {
     const Vec3 x = b_.centre.start - a_.centre.start;
     const Vec3 w = (b_.centre.end - a_.centre.end) - x;
     const double r = a_.radius + b_.radius, along = -x.dot(w), distance = x.norm();
-    // b^2 - a c = a r^2 - |x cross w|^2, which loses less.
+    // b^2 - a c = a r^2 - |x cross w|^2, which loses fewer digits.
     const double d = w.squaredNorm() * r * r - x.cross(w).squaredNorm();
     return (distance - r) * (distance + r) / (along + std::sqrt(std::max(d, 0.0)));
   }
@@ -74,7 +75,7 @@ MovingContact sphere_contact(const MovingSphere& a, const MovingSphere& b, doubl
   out.t_hi = hi;
   out.certain = true;
   Vec3 n = b.centre.at(lo) - a.centre.at(lo);
-  if (!(n.norm() > 0)) {  // concentric: against the approach
+  if (!(n.norm() > 0)) {  // concentric: opposed to the approach
     n = (a.centre.end - a.centre.start) - (b.centre.end - b.centre.start);
   }
   if (n.norm() > 0) out.normal = n.normalized();
@@ -87,7 +88,7 @@ std::optional<MovingContact> first_touch(const MovingSphere& a, const MovingSphe
   if (q.slope_sign(0) >= 0) return std::nullopt;
   const bool touches = q.slope_sign(1) <= 0 ? q.sign(1) <= 0 : q.discriminant_sign() >= 0;
   if (!touches) return std::nullopt;
-  // Before the root q > 0 falls; after it q <= 0, or the least value is passed.
+  // Before the root q > 0 and decreases; after it q <= 0, or the minimum is passed.
   const double root = std::clamp(q.root(), 0.0, 1.0);
   double lo = root, hi = root;
   for (double width = 0x1p-46;; width *= 8) {
@@ -116,7 +117,7 @@ Result<std::optional<MovingContact>> moving_spheres_contact(const MovingSphere& 
                  "", ""};
   }
   const double largest = std::max({centres, a.radius, b.radius});
-  // To magnitudes about 1, exactly but for what underflows.
+  // Scaled by a power of two to magnitudes about 1, which is exact except for underflow.
   const double factor =
       largest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(largest), -1000, 1000)) : 1;
   return first_touch({scaled(a.centre, factor), a.radius * factor},

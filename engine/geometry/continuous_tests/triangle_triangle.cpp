@@ -48,7 +48,7 @@ bool separates_throughout(const Vec3& direction, const MovingTriangle& a, const 
   return std::max(std::min(gap[0][0], gap[1][0]), std::min(gap[0][1], gap[1][1])) > needed;
 }
 
-/// The faces' normals: what the axes leave of distant pairs.
+/// Tests the normals of the faces, for distant pairs that the coordinate axes do not separate.
 bool apart_along_normals(const MovingTriangle& a, const MovingTriangle& b, double separation) {
   for (const MovingTriangle* t : {&a, &b}) {
     const MovingTriangle& c = *t;
@@ -58,8 +58,8 @@ bool apart_along_normals(const MovingTriangle& a, const MovingTriangle& b, doubl
   return false;
 }
 
-/// Overlap at t = 0, which no pair of features may show. Exact where magnitudes allow; elsewhere
-/// what is within 1e-12 of the size counts, as not certain.
+/// Overlap at t = 0 that no pair of features may show. Exact if magnitudes allow; otherwise
+/// anything within 1e-12 of the size counts as an overlap that is not certain.
 std::optional<MovingTriangleContact> overlap_at_start(const MovingTriangle& a,
                                                       const MovingTriangle& b, double largest,
                                                       bool exact) {
@@ -89,7 +89,7 @@ std::optional<MovingTriangleContact> overlap_at_start(const MovingTriangle& a,
   return out;
 }
 
-/// Keeps the earliest; a certain contact bounds the end of every bracket.
+/// Keeps the earliest contact; a certain one bounds the end of every bracket.
 class Earliest {
  public:
   void offer(const std::optional<MovingContact>& c, MovingFeatures features, size_t a, size_t b) {

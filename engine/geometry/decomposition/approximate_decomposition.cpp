@@ -21,13 +21,13 @@
 namespace tumble {
 namespace {
 
-constexpr size_t deciding_samples = 250;     ///< of each hull while pieces are cut and merged
-constexpr size_t reporting_samples = 4000;   ///< of all, at the end
+constexpr size_t deciding_samples = 250;     ///< per hull, while pieces are cut and merged
+constexpr size_t reporting_samples = 4000;   ///< in total, for the report
 constexpr int slices = 9;                    ///< cuts tried along each axis
-constexpr size_t notch_planes = 12;          ///< cuts tried through reflex edges
-constexpr size_t most_scored_points = 2000;  ///< of a piece when cuts are compared
-constexpr size_t most_paired_points = 400;   ///< of a piece when pairs of cuts are
-constexpr size_t most_notches = 1500;        ///< of a piece whose reflex edges are looked at
+constexpr size_t notch_planes = 12;          ///< cutting planes tried through reflex edges
+constexpr size_t most_scored_points = 2000;  ///< points of a piece used to compare single cuts
+constexpr size_t most_paired_points = 400;   ///< points of a piece used to compare pairs of cuts
+constexpr size_t most_notches = 1500;        ///< reflex edges of a piece that are considered
 constexpr double anywhere = std::numeric_limits<double>::infinity();
 
 /// Volume of the convex hull of points; 0 when they are flat.
@@ -43,12 +43,12 @@ double hull_volume(std::span<const Vec3> points, double tolerance) {
   return six / 6;
 }
 
-/// A part of the solid with its hull.
+/// A part of the solid and its hull.
 struct Part {
   SolidPiece solid;  ///< empty once parts have been merged
   ConvexPiece piece;
-  TriangleMesh surface;     ///< of the hull
-  TriangleMesh stands_for;  ///< surfaces of the solids that the hull is of
+  TriangleMesh surface;     ///< surface of the hull
+  TriangleMesh stands_for;  ///< surfaces of the solids whose hull it is
   Aabb box;
 };
 
@@ -56,10 +56,10 @@ struct Part {
 struct Merger {
   size_t a = 0, b = 0;
   Part result;
-  double grown = 0;  ///< volume that no part had [m^3]
+  double grown = 0;  ///< volume added to that of the two parts [m^3]
   enum class Reach { unknown, too_far, known };
   Reach reach = Reach::unknown;   ///< of result.piece.added
-  Reach hollow = Reach::unknown;  ///< how far the hull reaches outside what it stands for
+  Reach hollow = Reach::unknown;  ///< how far the hull reaches outside the solids that it replaces
 };
 
 class ApproximateDecomposer {
@@ -93,8 +93,8 @@ class ApproximateDecomposer {
   }
 
  private:
-  /// The solids of the mesh; where they have few reflex edges, their exact pieces, which leave only
-  /// merging to do.
+  /// The solids of the mesh. Those with few reflex edges are replaced by their exact convex pieces,
+  /// which then only have to be merged.
   Status start() {
     space_ = ExactSpace(mesh_.vertices);
     auto made = make_solids(mesh_, space_, tolerance_);
@@ -132,7 +132,7 @@ class ApproximateDecomposer {
       part.stands_for = part.surface;
       part.piece.added = reach(part, bound_);
     }
-    // A tolerance that was too large for thin parts shows in what is left of the volume.
+    // If the tolerance is too large for thin parts, volume is lost.
     const bool whole = std::fabs(pieces->solid_volume - pieces->mesh_volume) <=
                            tolerances::lost_volume * pieces->mesh_volume &&
                        std::all_of(parts_.begin(), parts_.end(),
@@ -141,7 +141,7 @@ class ApproximateDecomposer {
     return whole;
   }
 
-  /// Nothing where it is as flat as the tolerance.
+  /// Empty if the solid is flat within the tolerance.
   std::optional<Part> make_part(SolidPiece solid) const {
     TriangleMesh mesh = to_mesh(space_, solid);
     auto hull = convex_hull(mesh.vertices);
@@ -160,13 +160,14 @@ class ApproximateDecomposer {
     part.surface = to_mesh(part.piece.hull);
     part.box = bounds(part.surface);
   }
-  /// How far a part reaches outside, or that it is more than is allowed.
+  /// The distance that a part's hull reaches outside the mesh; the computation stops once it is
+  /// known to exceed `enough`.
   double reach(const Part& part, double enough) const {
     return reach_outside(part.surface, surface_, deciding_samples, enough);
   }
 
-  /// Cuts the part with the emptiest hull until none is too bad or there are far more than may
-  /// stay.
+  /// Cuts the part with the worst hull until all are within the bound, or there are far more parts
+  /// than allowed.
   Status cut_all() {
     while (parts_.size() < most_parts()) {
       if (stop_requested()) return stopped_error();
@@ -210,7 +211,7 @@ class ApproximateDecomposer {
     return false;
   }
 
-  /// Slices across the axes of the mesh's frame, and planes through reflex edges.
+  /// Slices perpendicular to the axes of the mesh's frame, and planes through reflex edges.
   std::vector<CutPlane> candidate_planes(size_t number) const {
     const SolidPiece& solid = parts_[number].solid;
     std::vector<CutPlane> out;
@@ -245,9 +246,9 @@ class ApproximateDecomposer {
                tolerances::same_cut_direction * box.extent().norm();
   }
 
-  /// The planes with those first that leave the least volume in the hulls of both sides, or that
-  /// would leave less for each cut with a second slice across them: no single cut empties the hull
-  /// of a ring, and slices along its axis never do, but two through the axis leave four arcs.
+  /// The planes sorted by the total volume of the hulls on both sides, or by that per cut together
+  /// with a second slice across, if it is less: no single cut reduces the hull of a ring, and
+  /// slices along its axis never do, but two through the axis leave four arcs.
   std::vector<CutPlane> ranked(const TriangleMesh& mesh, std::vector<CutPlane> planes) const {
     std::vector<double> volume(planes.size());
     const double whole = hull_volume(mesh.vertices, tolerance_);
@@ -255,7 +256,7 @@ class ApproximateDecomposer {
     const auto score = [&](size_t i) {
       if (stop_requested()) return;
       volume[i] = split_volume(mesh, planes[i].near);
-      // Four parts are three cuts.
+      // Three cuts leave four parts.
       if (i < paired.size()) volume[i] = std::min(volume[i], whole - (whole - paired[i]) / 3);
     };
     if (options_.crew) {
@@ -272,8 +273,9 @@ class ApproximateDecomposer {
     return sorted;
   }
 
-  /// For each slice across an axis: the least volume in the hulls of the four parts that it leaves
-  /// with a slice across another axis. Slices stand first among the planes, `slices` an axis.
+  /// For each slice across an axis: the least total volume of the hulls of the four parts that it
+  /// leaves together with a slice across another axis. The slices are first among the planes,
+  /// `slices` per axis.
   std::vector<double> pair_volumes(const TriangleMesh& mesh,
                                    std::span<const CutPlane> planes) const {
     constexpr size_t count = 3 * slices;
@@ -296,8 +298,8 @@ class ApproximateDecomposer {
     return least;
   }
 
-  /// Volume of the hulls of the parts between two planes, by some of the vertices and of the points
-  /// where edges cross either plane.
+  /// Total volume of the hulls of the four parts between two planes, estimated from some of the
+  /// vertices and of the points where edges cross either plane.
   double quarter_volume(const TriangleMesh& mesh, const Plane& p, const Plane& q) const {
     std::array<std::vector<Vec3>, 4> parts;
     const auto put = [&](const Vec3& x) {
@@ -337,7 +339,7 @@ class ApproximateDecomposer {
     for (const Triangle& t : mesh.triangles)
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = t[k], b = t[(k + 1) % 3];
-        // Each edge from the triangle that runs it upwards.
+        // Each edge once, from the triangle in which it runs upwards.
         if (!(height[a] < -tolerance_ && height[b] > tolerance_) || crossing++ % stride) continue;
         const double s = height[a] / (height[a] - height[b]);
         const Vec3 p = mesh.vertices[a] + s * (mesh.vertices[b] - mesh.vertices[a]);
@@ -348,7 +350,8 @@ class ApproximateDecomposer {
     return hull_volume(over, tolerance_) + hull_volume(beneath, tolerance_);
   }
 
-  /// Joins neighbours while the bound holds, or while there are too many: the least grown first.
+  /// Merges neighbours while the bound holds, or while there are too many; those that add the least
+  /// volume first.
   Status merge_all() {
     std::vector<Merger> mergers;
     for (size_t a = 0; a < parts_.size(); ++a)
@@ -358,7 +361,7 @@ class ApproximateDecomposer {
       if (stop_requested()) return stopped_error();
       const size_t left = parts_.size() - size_t(std::count(gone.begin(), gone.end(), 1));
       const bool must = left > options_.max_pieces;
-      if (must && mergers.empty())  // what is left is apart
+      if (must && mergers.empty())  // the remaining parts are not adjacent
         for (size_t a = 0; a < parts_.size(); ++a)
           for (size_t b = 0; b < a; ++b)
             if (!gone[a] && !gone[b]) offer(b, a, Neighbours::or_not, mergers);
@@ -391,8 +394,9 @@ class ApproximateDecomposer {
     }
     return m.reach == Merger::Reach::known && added <= bound_;
   }
-  /// Whether the hull stays near what it stands for. What reaches into other parts is inside the
-  /// mesh, but then hulls lie in each other and what they have in common counts twice.
+  /// Whether the hull of a merger stays within the bound of the solids that it replaces. A hull
+  /// that reaches into other parts is still inside the mesh, but overlapping hulls count their
+  /// common volume twice.
   bool within_itself(Merger& m) const {
     if (m.hollow == Merger::Reach::unknown) {
       TriangleMesh both = parts_[m.a].stands_for;
@@ -404,9 +408,9 @@ class ApproximateDecomposer {
     return m.hollow == Merger::Reach::known;
   }
 
-  /// The merger that adds the least volume of those whose hulls stay within the bound of what they
-  /// stand for. When there must be one: of those within the bound of the mesh; else the one that
-  /// reaches the least outside.
+  /// The merger that adds the least volume, of those whose hulls stay within the bound of the
+  /// solids that they replace. If one `must` be chosen: of those within the bound of the mesh,
+  /// otherwise the one that reaches the least outside.
   std::vector<Merger>::iterator choose(std::vector<Merger>& mergers, bool must) const {
     std::stable_sort(mergers.begin(), mergers.end(),
                      [](const Merger& a, const Merger& b) { return a.grown < b.grown; });

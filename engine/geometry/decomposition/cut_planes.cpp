@@ -9,13 +9,13 @@
 namespace tumble {
 namespace {
 
-constexpr size_t most_notches_tried = 400;  ///< of a solid: their planes are enough to choose from
-constexpr size_t most_groups = 3;           ///< planes through each notch and others
-constexpr size_t most_measured = 24;        ///< best planes whose sections are compared
+constexpr size_t most_notches_tried = 400;  ///< of a solid: their planes suffice as candidates
+constexpr size_t most_groups = 3;     ///< planes through each notch that contain other notches too
+constexpr size_t most_measured = 24;  ///< best planes whose sections are compared
 
 struct Candidate {
   CutPlane cut;
-  int gained = 0;      ///< notches resolved less those cut in two
+  int gained = 0;      ///< notches resolved minus notches cut in two
   double section = 0;  ///< length of its outline [m]
 };
 
@@ -55,7 +55,7 @@ class Chooser {
     offer_groups(a, b);
   }
 
-  /// Planes about the notch that hold other notches, those with the most first.
+  /// Planes through a notch that contain other notches; those with the most first.
   void offer_groups(const Vec3& a, const Vec3& b) {
     const Vec3 u = (b - a).normalized();
     const Vec3 v = u.unitOrthogonal(), w = u.cross(v);
@@ -65,7 +65,7 @@ class Chooser {
       const Vec2 fp(p.dot(v), p.dot(w)), fq(q.dot(v), q.dot(w));
       const Vec2& far = fp.squaredNorm() > fq.squaredNorm() ? fp : fq;
       const double size = far.norm();
-      if (size <= tolerance_) continue;  // on the same line
+      if (size <= tolerance_) continue;  // on the line of the notch
       const Vec2 across(-far.y() / size, far.x() / size);
       if (std::fabs(across.dot(fp)) > tolerance_ || std::fabs(across.dot(fq)) > tolerance_)
         continue;
@@ -75,7 +75,7 @@ class Chooser {
       turns_.push_back({turn, notches_[n].edge});
     }
     std::sort(turns_.begin(), turns_.end());
-    std::vector<std::pair<int, uint32_t>> groups;  // size, negative, and edge of the first
+    std::vector<std::pair<int, uint32_t>> groups;  // negative size, and edge of the first notch
     for (size_t first = 0; first < turns_.size();) {
       size_t end = first + 1;
       while (end < turns_.size() &&

@@ -67,7 +67,7 @@ class ExactDecomposer {
     return {};
   }
 
-  /// Cuts a solid once, or keeps it as a piece when it is convex.
+  /// Cuts a solid once, or keeps it as a piece if it is convex.
   Status advance(SolidPiece piece) {
     std::vector<Notch> notches = find_notches(space_, piece, tolerance_);
     if (notches.empty()) {
@@ -96,8 +96,8 @@ class ExactDecomposer {
                  "mend the mesh (`tumble mesh` says where), or decompose approximately"};
   }
 
-  /// Makes a solid's hull a piece, if it fills it. What has no hull or no volume is as thin as
-  /// rounding, and left out.
+  /// Adds a solid's hull as a piece if the solid fills it. A solid without a hull or volume is
+  /// within rounding of flat, and is left out.
   bool keep(const SolidPiece& piece, bool convex) {
     const TriangleMesh mesh = to_mesh(space_, piece);
     const double extent = bounds(mesh).extent().norm(), solid = enclosed_volume(mesh);

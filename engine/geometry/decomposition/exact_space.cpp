@@ -5,8 +5,8 @@
 namespace tumble {
 namespace {
 
-/// Roundings of doubles: of numbers made from exact ones, of a plane's value at a point, and of
-/// coordinates. Each counts its operations and rounds up.
+/// Rounding errors in double precision: of values computed from exact numbers, such as a plane's
+/// value at a point, and of coordinates. Each counts the operations and rounds up [-].
 constexpr double value_error = 64 * 0x1p-53, coordinate_error = 16 * 0x1p-53;
 
 template <class T, class U>

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Raises `worst` to the distance of p from the mesh if it is more and p lies outside.
+/// Raises `worst` to the distance of p from the mesh if that is larger and p lies outside.
 void offer(const Vec3& p, const Hierarchy& surface, double& worst) {
   const auto near = surface.closest(p, no_limit);
   if (!near) return;
@@ -24,7 +24,7 @@ void offer(const Vec3& p, const Hierarchy& surface, double& worst) {
   if (d > worst && point_in_object(p, surface).side == PointSide::outside) worst = d;
 }
 
-/// How far a point is outside a convex body: 0 inside.
+/// Distance of a point from a convex body; 0 inside.
 double distance_outside(const ConvexPolyhedron& hull, const Hierarchy& hull_surface,
                         const Vec3& p) {
   double most = -no_limit;

@@ -6,7 +6,7 @@ namespace tumble {
 
 std::vector<Notch> find_notches(const ExactSpace& space, const SolidPiece& piece,
                                 double tolerance) {
-  // How far a face reaches over the plane of another one.
+  // The greatest height of a face above the plane of another one.
   const auto height = [&](const SolidPiece::Face& face, const SolidPiece::Face& over) {
     double out = 0;
     for (const uint32_t s : face.sides)

@@ -42,14 +42,15 @@ class Cutter {
     return known;
   }
 
-  /// Cuts an edge at a point, and what runs along it on both sides of the section.
+  /// Splits an edge at a point, and also the edge that coincides with it on the other side of the
+  /// section.
   void split(uint32_t s, uint32_t point) {
     const uint32_t t = sides_[s].mate;
     const uint32_t wall = across_[s] != no_index ? s : across_[t] != no_index ? t : no_index;
     const uint32_t other = wall == no_index ? no_index : across_[wall];
     const uint32_t rest = split_pair(wall == no_index ? s : wall, point);
     if (other == no_index) return;
-    // The wall on the other side runs the other way.
+    // The coincident half-edge on the other side has the opposite direction.
     const uint32_t beyond = split_pair(other, point);
     link_across(wall, beyond);
     link_across(rest, other);
@@ -58,7 +59,7 @@ class Cutter {
     across_[a] = b;
     across_[b] = a;
   }
-  /// The new side, from the point to the end of s.
+  /// Makes the new half-edge, from the point to the end of s.
   uint32_t split_pair(uint32_t s, uint32_t point) {
     const uint32_t t = sides_[s].mate, s2 = uint32_t(sides_.size()), t2 = s2 + 1;
     for (const uint32_t side : {s, t}) {
@@ -87,7 +88,7 @@ class Cutter {
     return false;
   }
 
-  /// Divides a face that crosses a plane along it; the part beneath becomes a new face.
+  /// Divides a face that crosses a plane along it; the part below becomes a new face.
   bool divide(uint32_t f, uint32_t plane) {
     if (!crosses(f, plane)) return false;
     for (size_t i = 0; i < faces_[f].sides.size(); ++i) {
@@ -103,8 +104,8 @@ class Cutter {
     return true;
   }
 
-  /// The points of a face on the line, in their order; those at one place are one station. The
-  /// part over the plane is on the left of the line.
+  /// Collects the points of a face on the line, in their order along it; points at the same place
+  /// form one station. The part above the plane is to the left of the line.
   void find_stations(uint32_t f, uint32_t plane) {
     std::vector<uint32_t> on;
     for (const uint32_t s : faces_[f].sides)
@@ -124,7 +125,7 @@ class Cutter {
     }
     std::sort(station_of_.begin(), station_of_.end());
   }
-  /// no_index for points that are not on the line.
+  /// The station of a point; no_index if it is not on the line.
   uint32_t station(uint32_t point) const {
     const auto found = std::lower_bound(station_of_.begin(), station_of_.end(),
                                         std::pair<uint32_t, uint32_t>(point, 0));
@@ -140,11 +141,11 @@ class Cutter {
     }
   }
 
-  /// Gives each part its sides, and both the stretches of the line between them: as many as run
-  /// into a station leave it.
+  /// Assigns to each part its half-edges, and to both parts the segments of the line between them:
+  /// as many half-edges enter a station as leave it.
   void share_sides(uint32_t f, uint32_t beneath, uint32_t plane) {
     std::vector<int> over_line(stations_.size(), 0), beneath_line = over_line;
-    std::vector<int> along = over_line, against = over_line;  // sides that are there already
+    std::vector<int> along = over_line, against = over_line;  // half-edges that exist already
     std::vector<uint32_t> kept;
     for (const uint32_t s : faces_[f].sides) {
       const uint32_t a = station(sides_[s].start), b = station(sides_[s].end);
@@ -176,7 +177,7 @@ class Cutter {
     }
   }
 
-  /// An edge from a to b, with one face on its left and one on its right.
+  /// Adds an edge from a to b, with one face on its left and one on its right.
   void add_pair(uint32_t a, uint32_t b, uint32_t left, uint32_t right,
                 const std::array<uint32_t, 2>& line) {
     const auto s = uint32_t(sides_.size());
@@ -187,18 +188,19 @@ class Cutter {
     across_.resize(sides_.size(), no_index);
   }
 
-  /// Whether a face that the plane does not cross belongs to the solid over it, 1, or beneath, -1.
+  /// Whether a face that the plane does not cross belongs to the solid above the plane (1) or below
+  /// (-1).
   int belongs(uint32_t f) {
     for (const uint32_t s : faces_[f].sides)
       if (const int side = side_of(request_.plane, sides_[s].start)) return side;
-    // On the plane: the solid is behind the face.
+    // In the plane: the solid is behind the face.
     const double up = space_.plane(faces_[f].plane).normal.dot(space_.plane(request_.plane).normal);
     return (up > 0) != faces_[f].turned ? -1 : 1;
   }
 
-  /// The section as a face of the solid over the plane and one of that beneath it, along the edges
-  /// where the solid goes on across the plane. A reflex edge that only touches the plane with both
-  /// its faces on one side divides the section on that side.
+  /// Adds the section as a face of the solid above the plane and one of the solid below, bounded by
+  /// the edges where the solid continues across the plane. A reflex edge that only touches the
+  /// plane, with both faces on one side, divides the section on that side.
   void add_section() {
     faces_.push_back({request_.plane, true, false, {}});
     faces_.push_back({request_.plane, false, false, {}});
@@ -224,7 +226,7 @@ class Cutter {
     }
   }
 
-  /// Divides a face along the lines of its sides until it is convex.
+  /// Divides a face along the lines of its edges until it is convex.
   void make_convex(uint32_t face) {
     std::vector<uint32_t> waiting{face};
     while (!waiting.empty() && sound_) {
@@ -238,7 +240,8 @@ class Cutter {
       }
     }
   }
-  /// Of the planes of a side's line the one that is more across its face.
+  /// Of the two planes that define the line of a half-edge, the one that is more perpendicular to
+  /// its face.
   uint32_t wall_of(uint32_t s) const {
     const Vec3& normal = space_.plane(faces_[sides_[s].face].plane).normal;
     const auto& [p, q] = sides_[s].line;
@@ -248,7 +251,7 @@ class Cutter {
                : q;
   }
 
-  /// Takes those parts of the section back that were not asked for.
+  /// Undoes those parts of the section that were not requested.
   void keep_selected() {
     const std::vector<char> selected = selected_faces();
     for (uint32_t s = 0; s < sides_.size(); ++s) {
@@ -263,7 +266,7 @@ class Cutter {
       if (!selected[f]) faces_[f].sides.clear();
   }
 
-  /// New faces of the parts of the section that are asked for.
+  /// New faces of the requested parts of the section.
   std::vector<char> selected_faces() {
     DisjointSets parts(faces_.size());
     for (uint32_t f = first_new_; f < faces_.size(); ++f)
@@ -293,9 +296,9 @@ class Cutter {
   const CutRequest& request_;
   std::vector<Side> sides_;
   std::vector<Face> faces_;
-  /// Of each side that borders the section the one across the cut, which was its mate.
+  /// For each half-edge on the boundary of the section, its former mate across the cut.
   std::vector<uint32_t> across_;
-  std::vector<int8_t> known_;  ///< sides of points to the plane of the cut
+  std::vector<int8_t> known_;  ///< on which side of the cutting plane points are
   std::vector<uint32_t> stations_;
   std::vector<std::pair<uint32_t, uint32_t>> station_of_;  ///< by point
   uint32_t first_new_ = 0;

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// How often a closed surface winds around a point.
+/// Winding number of a closed surface about a point.
 int winding_about(const TriangleMesh& mesh, const Vec3& p) {
   int out = 0;
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -25,8 +25,8 @@ uint32_t opposite(const TriangleMesh& mesh, TriangleSide s) {
   return mesh.triangles[s / 3][(s % 3 + 2) % 3];
 }
 
-/// Planes of the triangles of a mesh. A triangle without area has that of the neighbour on its
-/// longest side, and counts as a part of it.
+/// Planes of the triangles of a mesh. A triangle without area is assigned to the plane of the
+/// neighbour across its longest side.
 class TrianglePlanes {
  public:
   TrianglePlanes(const TriangleMesh& mesh, std::span<const TriangleSide> mates, ExactSpace& space)
@@ -48,11 +48,11 @@ class TrianglePlanes {
 
   std::vector<uint32_t> plane;
 
-  /// A point of the face of a side that is not on its line.
+  /// A point of a side's face that is not on the line of the side.
   uint32_t apex(TriangleSide s) const {
     const uint32_t t = stands_for_[s / 3];
     if (t == s / 3) return opposite(mesh_, s);
-    // Of the triangle that it counts to, the corner that is farthest from the line.
+    // The corner farthest from the line, of the triangle to whose plane it is assigned.
     const Vec3 &a = mesh_.vertices[side_start(mesh_, s)], &b = mesh_.vertices[side_end(mesh_, s)];
     return *std::ranges::max_element(mesh_.triangles[t], {}, [&](uint32_t v) {
       return (mesh_.vertices[v] - a).cross(b - a).squaredNorm();
@@ -74,7 +74,7 @@ class TrianglePlanes {
   std::vector<uint32_t> stands_for_;
 };
 
-/// A plane through an edge that is far from that of its face.
+/// A plane through an edge that is nearly perpendicular to that of its face.
 uint32_t add_wall(ExactSpace& space, const Vec3& a, const Vec3& b, const Vec3& face_normal) {
   int k = 0;
   face_normal.cwiseAbs().maxCoeff(&k);
@@ -109,7 +109,7 @@ std::vector<SolidPiece> connected_surfaces(const SolidPiece& all) {
   return out;
 }
 
-/// An outer surface, rounded, and the solid in it.
+/// An outer surface with rounded coordinates, and the solid that it bounds.
 struct Outer {
   TriangleMesh mesh;
   double volume;
@@ -172,7 +172,7 @@ TriangleMesh to_mesh(const ExactSpace& space, const SolidPiece& piece) {
 
 namespace {
 
-/// Outer surfaces with the cavities in them.
+/// Assigns cavities to the outer surfaces that contain them.
 std::vector<SolidPiece> solids_within(const ExactSpace& space, std::span<SolidPiece> surfaces,
                                       double skin, LeftOut* left_out) {
   std::vector<Outer> outer;
@@ -190,7 +190,7 @@ std::vector<SolidPiece> solids_within(const ExactSpace& space, std::span<SolidPi
       outer.push_back({std::move(mesh), volume, std::move(s)});
     }
   }
-  // A cavity belongs to the smallest solid around it.
+  // A cavity belongs to the smallest solid that contains it.
   for (const SolidPiece& c : cavities) {
     Outer* best = nullptr;
     for (Outer& o : outer)

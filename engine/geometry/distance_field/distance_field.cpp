@@ -9,16 +9,16 @@
 
 namespace tumble {
 
-/// A fine cell that holds a point, and where in it the point is.
+/// The fine cell that contains a point, and the point's place in it.
 struct DistanceField::FineCell {
-  size_t first;             ///< its lowest corner among the values
-  Vec3 fraction;            ///< of the point in the cell, each in [0, 1]
-  std::array<int, 3> node;  ///< its lowest corner in the grid
+  size_t first;             ///< index of its lowest corner among the values
+  Vec3 fraction;            ///< coordinates of the point in the cell, each in [0, 1]
+  std::array<int, 3> node;  ///< grid coordinates of its lowest corner
 };
 
 namespace {
 
-/// Values at the corners of a cube, x fastest.
+/// Values at the corners of a cube, x varying fastest.
 using CubeValues = std::array<double, 8>;
 
 double interpolate(const CubeValues& v, const Vec3& f) {
@@ -39,17 +39,18 @@ double interpolate(const CubeValues& v, const Vec3& f, Vec3& slope) {
   return low + f.z() * (high - low);
 }
 
-/// What is known of the distance at a point.
+/// Bounds of the signed distance at a point.
 struct DistanceInterval {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 
-  /// The distance changes by no more than one goes; `d`, right to `error`, is `way` away.
+  /// Narrows the bounds by the distance `d`, known to within `error`, of a point `way` away: the
+  /// distance function has Lipschitz constant 1.
   void from(double d, double way, double error) {
     low = std::max(low, d - way - error);
     high = std::min(high, d + way + error);
   }
-  /// `way` away the magnitude is at least `least`.
+  /// Narrows the bounds, given that the magnitude is at least `least` at a point `way` away.
   void beyond(bool inside, double least, double way) {
     if (inside) {
       high = std::min(high, way - least);
@@ -80,7 +81,7 @@ bool DistanceField::find_cell(const Vec3& p, FineCell& out) const {
   return true;
 }
 
-/// The values at the corners of a cell, in steps; false when one is out of range.
+/// The values at the corners of a cell, in storage steps; false if one is out of range.
 template <class Stored>
 bool DistanceField::read_corners(const std::vector<Stored>& values, const FineCell& cell,
                                  std::array<double, 8>& out) const {
@@ -130,7 +131,7 @@ DistanceSample DistanceField::sample(const Vec3& p) const {
   DistanceSample out;
   out.distance = step_ * interpolate(corner, cell.fraction, out.gradient);
   out.gradient *= step_ * inverse_cell_;
-  // The weighted mean of the corners' distances is no more than the root of that of the squares.
+  // The weighted mean of the corners' distances is at most the root of the mean square.
   const Vec3 f = cell.fraction;
   out.error = layout_.cell * std::sqrt(f.dot(Vec3::Ones() - f)) + report_.node_error;
   return out;
@@ -179,12 +180,13 @@ DistanceSample DistanceField::coarse_sample(const Vec3& p) const {
   return out;
 }
 
-/// Where there is no fine answer.
+/// The answer where there is no fine cell.
 DistanceSample DistanceField::far_sample(const Vec3& p) const {
   const Aabb box = layout_.box();
   const Vec3 nearest = p.cwiseMax(box.min).cwiseMin(box.max);
   if (nearest == p) return coarse_sample(p);
-  // Outside: no nearer than the mesh's box, no farther than by way of the field's.
+  // Outside of the field's box: not nearer than the mesh's box, and not farther than through the
+  // nearest point of the field's box.
   DistanceSample out = coarse_sample(nearest);
   const Vec3 way = p - nearest;
   const double length = way.norm();
@@ -208,7 +210,7 @@ FieldFoot DistanceField::foot(const Vec3& p) const {
     if (step == most_steps || out.residual <= tolerances::foot_residual * layout_.cell ||
         !(square > 0))
       break;
-    // Where a gradient is short, on a ridge of the distance, the step is no longer than the way.
+    // On a ridge (medial axis) the gradient is short; the step is then no longer than the distance.
     out.point -= d / std::max(square, 1.0) * gradient;
   }
   return out;

@@ -34,7 +34,7 @@ FieldError measure_field_error(const DistanceField& field, const Hierarchy& surf
   const SurfaceSamples on_surface(mesh);
   double squares = 0;
   for (size_t n = 1; n <= samples && !stop_requested(); ++n) {
-    // On the surface by area, then off it along the normal.
+    // A point on the surface, uniform by area, is moved off it along the normal.
     const auto [on, t] = on_surface(n);
     const Vec3 p = on + (2 * radical_inverse(n, 7) - 1) * field.band() * face_normal(mesh, t);
     const double off = std::fabs(field.value(p) - exact_distance(surface, p).distance);

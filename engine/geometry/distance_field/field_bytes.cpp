@@ -3,9 +3,9 @@
 namespace tumble {
 namespace {
 
-constexpr int most_blocks = 1 << 20;  ///< along an axis, of what can be a field
+constexpr int most_blocks = 1 << 20;  ///< greatest number of blocks along an axis in a valid file
 
-/// Both ways through one list, so that they agree.
+/// Reading and writing use the same list of members, so that they agree.
 template <class Stream, class Report>
 void visit_report(Stream& stream, Report& r) {
   stream(r.bytes_per_area);
@@ -50,7 +50,7 @@ std::optional<DistanceField> DistanceField::read(ByteReader& in) {
     *n = size_t(in.get<uint64_t>());
   const auto read_value = [&in](auto& x) { in.value(x); };
   visit_report(read_value, f.report_);
-  // Sizes that agree, so that no query reads beyond them.
+  // Checks that all sizes agree, so that no query reads out of range.
   if (!in.ok() || !(f.layout_.cell > 0)) return std::nullopt;
   for (const int n : f.layout_.blocks)
     if (n < 1 || n > most_blocks) return std::nullopt;

@@ -16,12 +16,12 @@
 namespace tumble {
 namespace {
 
-/// What is done of the time that a build takes, about, after the signs and after the fine nodes.
+/// Approximate share of the build time spent when the signs, and when the fine nodes, are done.
 constexpr double signs_done = 0.1, blocks_done = 0.8;
 constexpr int cells = FieldLayout::cells_along, nodes = FieldLayout::nodes_along;
 const double sqrt3 = std::sqrt(3.0);
-/// Of what is interpolated between the corners of a cube, over its side: the mean of the distances
-/// from the corners, weighted, is largest in the middle.
+/// Bound of the error of trilinear interpolation in a cube, over its side: the weighted mean
+/// distance from the corners is largest at the centre [-].
 const double interpolation_bound = sqrt3 / 2;
 
 Error bad_option(std::string message, std::string cure = {}) {
@@ -95,7 +95,7 @@ class DistanceFieldBuilder {
     if (!(cell > 0)) return bad_option("a mesh without extent has no distance field");
     field_.mesh_box_ = box;
     field_.band_ = options_.band * cell;
-    // Every corner of a cell that a point of the band lies in.
+    // The range includes all corners of every cell that contains a point of the band.
     field_.node_range_ = field_.band_ + sqrt3 * cell;
     FieldLayout& layout = field_.layout_;
     layout.cell = cell;
@@ -118,7 +118,8 @@ class DistanceFieldBuilder {
   }
 
   Error too_large(double bytes) const {
-    // The band grows with the square of the cells along an axis, the table of blocks with the cube.
+    // The memory of the band grows with the square of the cells along an axis, that of the table of
+    // blocks with the cube.
     const double factor = std::sqrt(bytes / double(options_.max_bytes));
     return bad_option(
         fmt::format(
@@ -133,7 +134,7 @@ class DistanceFieldBuilder {
     const double most =
         double(near.blocks.size()) * double(FieldLayout::nodes_of_block * value_bytes);
     if (most > double(options_.max_bytes)) return too_large(most);
-    // All are measured first; those that nothing comes near are then left out.
+    // All nodes are measured first; blocks to which no triangle is near are then left out.
     std::vector<int32_t> all(is_short_ ? 0 : near.blocks.size() * FieldLayout::nodes_of_block);
     std::vector<int16_t> all_short(is_short_ ? near.blocks.size() * FieldLayout::nodes_of_block
                                              : 0);
@@ -176,7 +177,7 @@ class DistanceFieldBuilder {
                    all.begin() + std::ptrdiff_t((n + 1) * size));
   }
 
-  /// Magnitudes with their signs, in steps; what is out of range is the largest number.
+  /// Stores magnitudes with their signs, in steps; values out of range become the largest number.
   template <class Stored>
   void store(const ScanLines& lines, size_t block, const BlockDistances& distances, Stored* out) {
     const auto place = field_.layout_.block_place(block);
@@ -200,8 +201,8 @@ class DistanceFieldBuilder {
     overlapped_ += overlapped;
   }
 
-  /// The coarse level: every corner of every block, exactly. A corner's distance bounds that of the
-  /// next one in its row, which spares most of the search.
+  /// The coarse level: exact distances at the corners of all blocks. The distance at a corner
+  /// bounds that at the next in its row, which saves most of the search.
   void fill_corners(const ScanLines& lines) {
     const FieldLayout& layout = field_.layout_;
     field_.corners_.resize(layout.corner_count());
@@ -242,7 +243,7 @@ class DistanceFieldBuilder {
     r.overlapped_nodes = overlapped_;
   }
 
-  /// From which share of the whole work to which a loop goes.
+  /// The range of a loop's progress within that of the whole work.
   struct Part {
     double from, to;
   };
@@ -273,7 +274,7 @@ class DistanceFieldBuilder {
 double field_cell(const DistanceFieldOptions& options, const Aabb& bounds) {
   if (options.cell > 0) return options.cell;
   if (!(options.error > 0)) return bounds.extent().maxCoeff() / 64;
-  // No point of the band errs by more: between nodes, and by storage in 16 bits.
+  // Inverts the bound of the error in the band, from interpolation and from storage in 16 bits.
   return options.error / (interpolation_bound + (options.band + sqrt3) / INT16_MAX);
 }
 

@@ -16,10 +16,10 @@ namespace {
 
 constexpr int row_cells = FieldLayout::cells_along, row_nodes = FieldLayout::nodes_along;
 
-/// A triangle as it is measured: in a ball about its middle, on a plane.
+/// A triangle prepared for distance tests: its bounding ball about the centroid, and its plane.
 struct MeasuredTriangle {
   std::array<Vec3, 3> corner;
-  Vec3 middle, normal;  ///< `normal` is zero without area
+  Vec3 middle, normal;  ///< `normal` is zero for a triangle without area
   double radius;
 
   MeasuredTriangle(const TriangleMesh& mesh, uint32_t t)
@@ -30,7 +30,7 @@ struct MeasuredTriangle {
     radius = std::sqrt(square) * (1 + tolerances::distance_rounding);
     const Vec3 cross = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     const double length = cross.norm();
-    // A normal of which rounding leaves little says nothing.
+    // A normal of about the size of its rounding error has no meaning.
     normal = length > tolerances::node_error * square ? Vec3(cross / length) : Vec3(Vec3::Zero());
   }
 };
@@ -39,7 +39,7 @@ struct Near {
   uint32_t block, triangle;
 };
 
-/// Appends the blocks that one triangle may come near.
+/// Appends the blocks within range of one triangle.
 void near_blocks(const MeasuredTriangle& m, uint32_t t, const FieldLayout& layout, double range,
                  std::vector<Near>& out) {
   Aabb box;
@@ -69,10 +69,10 @@ void near_blocks(const MeasuredTriangle& m, uint32_t t, const FieldLayout& layou
       }
 }
 
-/// A row of nodes, and one more that nobody asks for: pairs of numbers are computed at once.
+/// A row of nodes, padded by one, so that pairs of numbers can be computed at once.
 using Row = Eigen::Array<double, row_nodes + 1, 1>;
 
-/// The nodes of one block with the squares of their least distances so far.
+/// The nodes of one block with their least squared distances so far.
 class BlockMeasure {
  public:
   BlockMeasure(const FieldLayout& layout, size_t block, double range)
@@ -84,8 +84,8 @@ class BlockMeasure {
     best_.fill(Row::Constant(range * range));
   }
 
-  /// Nothing is farther from a node than the middle of a triangle, which is cheap and spares most
-  /// of the measuring.
+  /// Upper bound by the distance from the centroid of a triangle, which is cheap and saves most of
+  /// the exact tests.
   void offer_middle(const MeasuredTriangle& m) {
     each_row(m, [&](int y, int z, double square, double) {
       Row& best = row(y, z);
@@ -96,8 +96,9 @@ class BlockMeasure {
   void offer(const MeasuredTriangle& m) {
     each_row(m, [&](int y, int z, double square, double height) {
       Row& best = row(y, z);
-      // In its plane the triangle lies in a disc of radius r about its middle, so that with
-      // q^2 = best - height^2 the feet of nodes that it may win are no farther than r + q from it.
+      // In its plane the triangle lies in a disc of radius r about its centroid. So, with q^2 =
+      // best - height^2, only nodes whose projections are within r + q of the centroid can get
+      // nearer.
       const double r_square = m.radius * m.radius;
       const Row dx = at_[0] - m.middle.x();
       const Row height_square = (height + m.normal.x() * dx).square();
@@ -115,7 +116,7 @@ class BlockMeasure {
     });
   }
 
-  /// Distances; infinity where nothing is within the range.
+  /// Writes the distances; infinity if nothing is within the range.
   void write(BlockDistances& out) const {
     for (int z = 0; z < row_nodes; ++z)
       for (int y = 0; y < row_nodes; ++y)
@@ -130,8 +131,8 @@ class BlockMeasure {
  private:
   Row& row(int y, int z) { return best_[size_t(z * row_nodes + y)]; }
 
-  /// Calls f for the rows that a triangle may come near, with what their nodes have in common of
-  /// the squared distance from the middle and of the height over the plane.
+  /// Calls f for the rows within reach of a triangle, with the parts of the squared distance from
+  /// the centroid and of the height over the plane that their nodes have in common.
   template <class F>
   void each_row(const MeasuredTriangle& m, const F& f) const {
     std::array<int, 3> low, high;
@@ -156,7 +157,7 @@ class BlockMeasure {
   }
 
   double range_, cell_;
-  std::array<Row, 3> at_;                               ///< where nodes are along each axis [m]
+  std::array<Row, 3> at_;  ///< coordinates of the nodes along each axis [m]
   std::array<Row, size_t(row_nodes* row_nodes)> best_;  ///< squared [m^2]
 };
 
@@ -170,7 +171,7 @@ BlockTriangles triangles_near_blocks(const TriangleMesh& mesh, const FieldLayout
       near_blocks(MeasuredTriangle(mesh, uint32_t(t)), uint32_t(t), layout, range, found[chunk]);
   });
   if (stop_requested()) return {};
-  // Chunks hold their triangles in order: counting keeps it.
+  // Triangles are in ascending order within chunks; counting sort preserves that.
   std::vector<size_t> start(layout.block_count() + 1, 0);
   for (const auto& part : found)
     for (const Near& n : part) ++start[n.block + 1];

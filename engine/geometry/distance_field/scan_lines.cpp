@@ -14,7 +14,7 @@ struct NodeSpan {
   int first, last;
 };
 
-/// The nodes of an axis that an interval may hold, one more on either side for rounding.
+/// The nodes of an axis within an interval, with one more on either side for rounding.
 NodeSpan nodes_about(const FieldLayout& layout, int axis, double low, double high) {
   const int most = FieldLayout::cells_along * layout.blocks[size_t(axis)];
   const double from = std::floor((low - layout.origin[axis]) / layout.cell) - 1,
@@ -22,7 +22,7 @@ NodeSpan nodes_about(const FieldLayout& layout, int axis, double low, double hig
   return {int(std::clamp(from, 0.0, double(most))), int(std::clamp(to, 0.0, double(most)))};
 }
 
-/// Appends the crossings of one triangle.
+/// Appends the crossings of grid rows with one triangle.
 void cross_rows(const TriangleMesh& mesh, size_t t, const FieldLayout& layout,
                 std::vector<RowCrossing>& out) {
   const Triangle3 corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
@@ -38,7 +38,7 @@ void cross_rows(const TriangleMesh& mesh, size_t t, const FieldLayout& layout,
       const Vec3 before(box.min.x() - layout.cell, py, pz);
       const int turns = ray_crossing(before, corners);
       if (turns == 0) continue;
-      // The first node past the crossing: those before it have it ahead.
+      // Finds the first node after the crossing by bisection.
       int low = xs.first, high = xs.last + 1;
       while (low < high) {
         const int middle = low + (high - low) / 2;

@@ -16,7 +16,7 @@ void include(AabbVolume& box, const AabbVolume& other) {
   }
 }
 
-/// The boxes of a leaf's triangles, in their own frame and in the other.
+/// The bounding boxes of a leaf's triangles, in their own frame and in the other mesh's.
 struct LeafBoxes {
   std::array<Aabb, AabbTree::max_leaf_triangles> own, other;
 };

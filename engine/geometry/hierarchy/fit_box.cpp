@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// Four vectors, by coordinate.
+/// Four vectors, stored by coordinate (structure of arrays).
 struct Vectors4 {
   Float4 x, y, z;
 
@@ -18,7 +18,7 @@ struct Vectors4 {
     return {a, b, c};
   }
   Float4 one(size_t lane) const { return {x.array()[lane], y.array()[lane], z.array()[lane], 0}; }
-  /// The first three lanes, each replaced by the next.
+  /// Rotates the first three lanes by one.
   Vectors4 next() const {
     return {x.shuffled<1, 2, 0, 3>(), y.shuffled<1, 2, 0, 3>(), z.shuffled<1, 2, 0, 3>()};
   }
@@ -35,8 +35,8 @@ Vectors4 crosses(const Vectors4& a, const Vectors4& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Unit vectors; where the length is lost in rounding beside 1 they become not-a-number, which no
-/// comparison chooses.
+/// Unit vectors; where the length is within rounding of zero the result is NaN, which no comparison
+/// chooses.
 Vectors4 units(const Vectors4& v) {
   const __m128 length = _mm_sqrt_ps(dots(v, v).v);
   const __m128 lost = _mm_cmple_ps(length, _mm_set1_ps(1e-5f));
@@ -52,9 +52,9 @@ Float4 areas(const Float4& x, const Float4& y, const Float4& z) {
   return x * y + y * z + z * x;
 }
 
-/// The axes of a tight box about the extreme points, which are about 1 in size, so that no product
-/// underflows or overflows. Places 0 to 7 are the lowest points, the last of them twice, 8 to 15
-/// the highest.
+/// Searches the axes of a tight box about extreme points, which are scaled to magnitude 1, so that
+/// no product underflows or overflows. Indices 0 to 7 are the lowest points by direction, the last
+/// of them twice, 8 to 15 the highest.
 class AxesSearch {
  public:
   explicit AxesSearch(const std::array<Float4, 14>& points) {
@@ -82,11 +82,11 @@ class AxesSearch {
     const Vectors4 normal = units(crosses(edge, Vectors4::all(p2 - p0)));
     if (is_lost(normal)) return along(edge.one(0));
 
-    // The base, p0 p1 p2; a lane for each of its sides.
+    // The base triangle p0 p1 p2; one lane for each of its sides.
     const Vectors4 corners = Vectors4::of(p0, p1, p2, p0), sides = units(corners.next() - corners);
     const Float4 along_sides = extents(sides);
     offer(normal, extents(normal), sides, along_sides);
-    // The triangles from its sides to the points furthest above and below.
+    // Triangles from its sides to the points farthest above and below.
     const auto height = [&](size_t g) { return dots(fours_[g] - first, normal); };
     const std::array<Float4, 4> above{height(0), height(1), height(2), height(3)};
     const std::array<Float4, 4> below{none - above[0], none - above[1], none - above[2],
@@ -105,7 +105,7 @@ class AxesSearch {
   }
 
  private:
-  /// The first place of the largest of sixteen numbers.
+  /// The first index of the largest of sixteen numbers.
   static size_t highest(const std::array<Float4, 4>& h) {
     const Float4 all(most(max(max(h[0], h[1]), max(h[2], h[3]))));
     unsigned at = 0;
@@ -114,7 +114,7 @@ class AxesSearch {
     return size_t(std::countr_zero(at | 0x8000u));
   }
 
-  /// How far the points reach along four axes.
+  /// Extents of the points along four axes.
   Float4 extents(const Vectors4& axes) const {
     Float4 low = dots(spread_[0], axes), high = low;
     for (size_t k = 1; k < spread_.size(); ++k) {
@@ -125,8 +125,8 @@ class AxesSearch {
     return high - low;
   }
 
-  /// Boxes with a face across a normal and an edge along a side, a lane each, the last of no
-  /// meaning.
+  /// Tries boxes with a face perpendicular to a normal and an edge along a side, one per lane; the
+  /// last lane has no meaning.
   void offer(const Vectors4& normals, Float4 thickness, const Vectors4& sides, Float4 along_sides) {
     const Float4 area = areas(thickness, along_sides, extents(crosses(normals, sides)));
     if (!(greater(Float4(best_area_), area) & 7)) return;
@@ -139,7 +139,7 @@ class AxesSearch {
     }
   }
 
-  /// Points along a line.
+  /// Coordinates of the points along an axis.
   Rows3 along(const Float4& unit) {
     const bool x_far = std::fabs(unit.first()) < 0.6f;
     const Vectors4 across = units(crosses(
@@ -148,7 +148,8 @@ class AxesSearch {
     return best();
   }
 
-  /// Right angles to rounding: the normal of a narrow triangle is not quite across its sides.
+  /// Makes the axes perpendicular to rounding: the computed normal of a narrow triangle is not
+  /// quite perpendicular to its sides.
   Rows3 best() const {
     const Vectors4 side = Vectors4::all(side_);
     const Vectors4 third = units(crosses(Vectors4::all(normal_), side));
@@ -162,7 +163,7 @@ class AxesSearch {
   Float4 normal_ = Float4(1, 0, 0, 0), side_ = Float4(0, 1, 0, 0);
 };
 
-/// Heights along x, y, z and the four diagonals of the cube.
+/// Heights of a point along x, y, z and the four diagonals of the cube.
 std::array<float, 8> heights(Float4 p) {
   std::array<float, 8> out;
   p.store(out.data());
@@ -249,7 +250,8 @@ FittedBox fit_box(std::span<const Float4> points, const Rows3& axes) {
     turned = straight;
   }
   out.centre = out.axes.combine((turned.low + turned.high) * Float4(0.5f)).xyz();
-  // Rounding of points, axes and sums, all relative to the distance from the origin.
+  // Error bound for rounding of points, axes and sums, all relative to the distance from the
+  // origin.
   const float far = most(max(abs(turned.low), abs(turned.high)));
   out.half = ((turned.high - turned.low) * Float4(0.5f) + Float4(8e-7f * far)).xyz();
   return out;

@@ -22,8 +22,8 @@ const Vec3& furthest(std::span<const Vec3> points, const Vec3& direction) {
   return points[best];
 }
 
-/// Up to four points of the difference of the sets, reduced to those that hold the point nearest to
-/// the origin.
+/// Up to four points of the Minkowski difference, reduced to those whose hull contains the point
+/// nearest to the origin (GJK).
 struct Simplex {
   std::array<Vec3, 4> p;
   size_t size = 0;
@@ -35,7 +35,8 @@ struct Simplex {
     return false;
   }
 
-  /// Nearest point to the origin; keeps the points that carry it. Zero when the origin is inside.
+  /// The point of the simplex nearest to the origin; drops points that do not support it. Zero if
+  /// the origin is inside.
   Vec3 nearest() {
     switch (size) {
       case 1:
@@ -83,7 +84,7 @@ struct Simplex {
     for (const auto& f : faces) {
       const Vec3 n = (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]);
       const double of_origin = -n.dot(p[f[0]]), of_other = n.dot(p[f[3]] - p[f[0]]);
-      // In doubt (no volume) the face is looked at.
+      // If the sign is in doubt (no volume), the face is examined.
       if (of_origin * of_other > 0) continue;
       outside = true;
       const TrianglePoint t = closest_on_triangle(Vec3::Zero(), p[f[0]], p[f[1]], p[f[2]]);
@@ -108,11 +109,11 @@ DistanceBracket hull_distance(std::span<const Vec3> a, std::span<const Vec3> b, 
     const Vec3 v = simplex.nearest();
     const double square = v.squaredNorm();
     const double length = std::sqrt(square);
-    // v is the difference of two points of the hulls, up to the rounding of coordinates.
+    // v is a difference of two points of the hulls, up to the rounding of coordinates.
     const Vec3 &on_a = furthest(a, -v), &on_b = furthest(b, v);
     const double rounding = 4e-16 * (on_a.cwiseAbs().sum() + on_b.cwiseAbs().sum() + length);
     out.upper = std::min(out.upper, length + rounding);
-    // Below this squares and products lose digits to underflow: taken for touching.
+    // Below this, squares and products lose digits to underflow: counts as touching.
     if (!(square > 1e-290) || out.upper <= enough) return out;
     const Vec3 w = on_a - on_b;
     out.lower = std::max(out.lower, v.dot(w) / length - rounding);

@@ -12,10 +12,10 @@ template class BoundingTree<HullKind>;
 
 namespace {
 
-/// Nodes of at most this many vertices keep them all.
+/// Nodes with at most this many vertices keep all of them.
 constexpr size_t keep_all = 16;
 
-/// Half of the 26 directions; the others are opposite.
+/// Half of the 26 directions; the others are opposite to these.
 const std::array<Vec3, 13>& hull_directions() {
   static const std::array<Vec3, 13> out = {
       Vec3(1, 0, 0),  Vec3(0, 1, 0),   Vec3(0, 0, 1), Vec3(1, 1, 1),  Vec3(1, 1, -1),
@@ -45,7 +45,7 @@ class HullFit {
   }
 
  private:
-  /// The different vertices of the node's triangles, in the order in which they stand.
+  /// Collects the distinct vertices of the node's triangles, in order of first occurrence.
   void gather(uint32_t i, NodeRange range) {
     all_.clear();
     for (uint32_t k = range.first; k < range.last; ++k) {
@@ -81,14 +81,15 @@ class HullFit {
     return kept;
   }
 
-  /// Bound of the distance of the furthest vertex from the hull of the kept ones.
+  /// Bound of the distance of the farthest vertex from the hull of the kept ones.
   double distance_from(const std::vector<uint32_t>& kept) const {
     std::vector<Vec3> hull;
     for (uint32_t v : kept) hull.push_back(in_.mesh.vertices[v]);
     double radius = 0;
     for (uint32_t v : all_) {
       const Vec3& p = in_.mesh.vertices[v];
-      // Stopped early, the upper bound says little: only of those within the radius is it enough.
+      // If the search stopped early, its upper bound is loose, and only useful if it is within the
+      // radius.
       if (!(hull_distance({&p, 1}, hull, radius).upper <= radius))
         radius = std::max(radius, hull_distance({&p, 1}, hull).upper);
     }
@@ -97,7 +98,7 @@ class HullFit {
 
   const FitInput& in_;
   std::vector<uint32_t>& vertices_;
-  std::vector<uint32_t> seen_;  // the last node that gathered each vertex
+  std::vector<uint32_t> seen_;  // the last node that collected each vertex
   std::vector<uint32_t> all_;
 };
 

@@ -6,13 +6,13 @@
 namespace tumble {
 namespace {
 
-/// A bright colour of the hue 0..1.
+/// A bright colour with the hue 0..1.
 Vec4f hue_colour(double hue) {
   const auto part = [hue](double shift) {
     const double h = hue + shift - std::floor(hue + shift);
     return float(std::clamp(std::fabs(6 * h - 3) - 1, 0.0, 1.0));
   };
-  // Mixed with white, so that no hue is darker than the others by much.
+  // Mixed with white, so that no hue looks much darker than the others.
   const Vec4f pure(part(0), part(2.0 / 3), part(1.0 / 3), 1);
   return Vec4f(0.12f, 0.12f, 0.12f, 0) + Vec4f(0.88f, 0.88f, 0.88f, 1).cwiseProduct(pure);
 }

@@ -7,14 +7,14 @@
 namespace tumble {
 namespace {
 
-/// Points on the sphere that determine it.
+/// The points on the sphere that determine it.
 struct Basis {
   std::array<Vec3, 5> points;
   size_t size = 0;
   Basis() { points.fill(Vec3::Zero()); }
 };
 
-/// Centre of the smallest sphere through one to four points; nothing when they do not determine one
+/// Centre of the smallest sphere through one to four points; empty if they do not determine one
 /// (collinear, coplanar).
 std::optional<Vec3> centre_through(std::span<const Vec3* const> p) {
   if (p.size() == 1) return *p[0];
@@ -35,8 +35,8 @@ std::optional<Vec3> centre_through(std::span<const Vec3* const> p) {
              (2 * volume);
 }
 
-/// The smallest sphere about at most five points: over all subsets of up to four, the smallest that
-/// holds the others.
+/// The smallest enclosing sphere of at most five points: the smallest sphere of a subset of up to
+/// four points that contains the others.
 Sphere sphere_about(const Basis& all, Basis& kept) {
   Sphere best;
   best.radius = -1;
@@ -55,7 +55,7 @@ Sphere sphere_about(const Basis& all, Basis& kept) {
       square = std::max(square, s);
       if (subset >> k & 1) own = std::max(own, s);
     }
-    // A point outside spoils it, except by rounding.
+    // A point outside by more than rounding excludes the sphere.
     if (square > own * (1 + 1e-12)) continue;
     const double radius = std::sqrt(square);
     if (best.radius >= 0 && !(radius < best.radius)) continue;
@@ -88,7 +88,7 @@ Sphere minimal_sphere(std::span<const Vec3> points) {
     Basis grown = basis;
     grown.points[grown.size++] = *pivot;
     const Sphere next = sphere_about(grown, basis);
-    if (!(next.radius > sphere.radius)) break;  // rounding has the last word
+    if (!(next.radius > sphere.radius)) break;  // no progress beyond rounding
     sphere = next;
   }
   furthest = 0;

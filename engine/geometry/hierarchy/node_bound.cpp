@@ -13,15 +13,15 @@ namespace {
 
 using std::numbers::pi;
 
-/// Outline of points that lie in a plane, counter-clockwise about its normal: Andrew's monotone
-/// chain (1979). Two points where they lie in a line, one where they are equal.
+/// Convex hull of coplanar points, counter-clockwise about the normal, by Andrew's monotone chain
+/// (1979). Two points if they are collinear, one if they are equal.
 struct FlatHull {
   Vec3 normal = Vec3::UnitZ();
   std::vector<Vec3> loop;
 };
 
 Vec3 flat_normal(std::span<const Vec3> points) {
-  // The widest triangle with the longest side from the first point: enough to find the plane.
+  // The largest triangle on the longest segment from the first point: enough to find the plane.
   const auto far = [&](const Vec3& from) {
     return *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
       return (a - from).squaredNorm() < (b - from).squaredNorm();
@@ -68,7 +68,7 @@ FlatHull flat_hull(std::span<const Vec3> points) {
       while (loop.size() >= before + 2 && !turns_left()) loop.pop_back();
       loop.push_back(*it);
     }
-    loop.pop_back();  // begins the other chain
+    loop.pop_back();  // it begins the other chain
   };
   chain(sorted.begin(), sorted.end());
   chain(sorted.rbegin(), sorted.rend());
@@ -135,13 +135,13 @@ void flat_wires(std::span<const Vec3> points, double radius, const BoundWires& w
   const FlatHull flat = flat_hull(points);
   const size_t n = flat.loop.size();
   if (n == 1) return sphere_wires(flat.loop[0], radius, w);
-  const auto outwards = [&](size_t k) {  // of the side from corner k
+  const auto outwards = [&](size_t k) {  // outward normal of the side from corner k
     return (flat.loop[(k + 1) % n] - flat.loop[k % n]).cross(flat.normal).normalized();
   };
   const auto end = [&](size_t k) -> Vec3 {
     const Vec3 both = outwards(k + n - 1) + outwards(k);
     const Vec3 along = flat.loop[k % n] - flat.loop[(k + 1) % n];
-    const bool tip = n == 2;  // both sides of a line: their normals cancel
+    const bool tip = n == 2;  // the two sides of a segment, whose normals cancel
     return flat.loop[k % n] + radius * (tip ? along : both).normalized();
   };
   for (size_t k = 0; k < n; ++k)

@@ -10,10 +10,10 @@
 namespace tumble {
 namespace {
 
-/// The vertices of each leaf's triangles about the origin, each once, leaf after leaf.
+/// The distinct vertices of each leaf's triangles relative to the origin, leaf after leaf.
 struct LeafPoints {
   std::vector<Float4> points;
-  std::vector<uint32_t> starts;  ///< by place in the order; given at the ends of leaves
+  std::vector<uint32_t> starts;  ///< by place in the order; only defined at the ends of leaves
 
   LeafPoints(const FitInput& in, const std::vector<TreeNode<ObbVolume>>& nodes)
       : starts(in.order.size() + 1) {

@@ -22,7 +22,7 @@ void SphereKind::fit(const FitInput& in, std::vector<TreeNode<SphereVolume>>& no
     SphereVolume& v = nodes[i];
     const auto nearby = to_float4(s.centre).array();
     std::copy_n(nearby.begin(), 3, v.centre.begin());
-    // About the rounded centre, and rounded up.
+    // The radius is computed about the rounded centre, and rounded up.
     const Vec3 rounded = centre(v);
     double square = 0;
     for (const Vec3& p : own) square = std::max(square, (p - rounded).squaredNorm());

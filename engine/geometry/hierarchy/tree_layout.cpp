@@ -10,15 +10,16 @@ namespace tumble {
 namespace {
 
 constexpr int most_bins = 16;
-/// Smaller nodes are weighed more coarsely: the bins would cost more than the triangles.
+/// Number of bins: small nodes get fewer, since bins would cost more than the triangles.
 int bins_for(uint32_t triangles) {
   return triangles < 32 ? 4 : triangles < 256 ? 8 : most_bins;
 }
-/// From this depth on nodes are halved, which ends within 32 levels.
+/// From this depth on nodes are halved at the median, which ends within 32 levels.
 constexpr int forced_median_depth = 60;
-/// Nodes of at most this many triangles are halved at once: the heuristic costs more than it gives.
+/// Nodes of at most this many triangles are halved at the median: the surface area heuristic costs
+/// more than it gains.
 constexpr uint32_t small_node = 8;
-/// Nodes of more are divided along the longest axis of their centres only.
+/// Larger nodes are only split along the longest axis of their centroids.
 constexpr uint32_t large_node = 256;
 
 struct Bin {
@@ -39,7 +40,7 @@ class Builder {
     TreeItems all = measured(0, uint32_t(items_.size()));
     struct Task {
       TreeItems range;
-      uint32_t parent;  // whose second child this is, or no_index
+      uint32_t parent;  // the node whose second child this is, or no_index
       int depth;
     };
     std::vector<Task> tasks;
@@ -85,14 +86,14 @@ class Builder {
     return r;
   }
 
-  /// Bins of all axes at once; the cheapest division between two bins.
+  /// Fills the bins of all axes in one pass and returns the cheapest split between two bins.
   TreeSplit cheapest(const TreeItems& range) {
     const int bins = bins_for(range.size());
     const Float4 low = range.centres.min, width = range.centres.max - range.centres.min;
-    // A little less than `bins`, so that the last centre falls into the last bin.
+    // Slightly less than `bins`, so that the last centroid falls into the last bin.
     const Float4 tiny(std::numeric_limits<float>::min() * most_bins);
     const Float4 scale = _mm_div_ps(Float4(float(bins) * 0.99999f).v, max(width, tiny).v);
-    // Large nodes are long somewhere: the other axes would cost two thirds of the time.
+    // Large nodes usually have one longest axis; the other axes would take two thirds of the time.
     const bool large = range.size() > large_node;
     const int first = large ? range.centres.longest_axis() : 0, last = large ? first + 1 : 3;
     for (int axis = first; axis < last; ++axis) {
@@ -146,7 +147,7 @@ class Builder {
     }
   }
 
-  /// Without branches: which side an item goes to is as good as random.
+  /// Partitions without branches, because the side of an item is unpredictable.
   template <class Left>
   std::pair<TreeItems, TreeItems> partition(const TreeItems& range, const GrowingBox& left_box,
                                             const GrowingBox& right_box, const Left& left) {
@@ -154,7 +155,8 @@ class Builder {
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const TreeItem item = items_[i];
       const bool to_left = left(item);
-      // Where a bound is not to change it meets not-a-number first, which min and max pass over.
+      // Where a bound must not change it is combined with NaN as first operand, which min and max
+      // ignore.
       const Float4 to_a(_mm_castsi128_ps(_mm_set1_epi32(int(to_left) - 1)));
       const Float4 to_b(_mm_castsi128_ps(_mm_set1_epi32(-int(to_left))));
       const Float4 centre = item.centre();
@@ -169,7 +171,7 @@ class Builder {
     return {a, b};
   }
 
-  /// Halves of a node whose halves are leaves: by rank.
+  /// Halves a node whose halves are leaves, by rank.
   std::pair<TreeItems, TreeItems> small_halves(const TreeItems& range) {
     const int axis = range.centres.longest_axis();
     const uint32_t n = range.size(), half = n / 2;

@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-/// On which side of a plane three points lie for certain: all above 1, all below -1, some on each
-/// 0; `unsure` when a sign is in doubt.
+/// Certain position of three points relative to a plane: all above, all below, or on both sides;
+/// `unsure` if a sign is not certain.
 enum class Sides { below, both, above, unsure };
 
 struct PlaneSides {
@@ -44,13 +44,13 @@ PlaneSides plane_sides(const TriangleCorners& t, const Vec3& normal, double exte
   return out;
 }
 
-/// The corner that is alone on its side, 0 to 2.
+/// Index of the corner that is alone on its side, 0 to 2.
 size_t lone_corner(const std::array<double, 3>& h) {
   const bool a = h[0] > 0, b = h[1] > 0, c = h[2] > 0;
   return b == c ? 0 : a == c ? 1 : 2;
 }
 
-/// Sign of (b - a) x (c - a) . (d - a) where certain, else 0.
+/// Sign of (b - a) x (c - a) . (d - a) if certain, otherwise 0.
 int sure_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = c - a, w = d - a;
   const double volume = u.cross(v).dot(w);
@@ -58,15 +58,15 @@ int sure_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   return volume > bound ? 1 : volume < -bound ? -1 : 0;
 }
 
-/// Both triangles cross the other's plane, every sign certain: the intervals in which they cut the
-/// planes' common line overlap unless one lies wholly before the other (Guigue & Devillers 2003).
-/// Returns 1 yes, -1 no, 0 in doubt.
+/// For triangles that cross each other's planes, with certain signs: whether the intervals in which
+/// they cut the common line of the planes overlap (Guigue & Devillers 2003). Returns 1 yes, -1 no,
+/// 0 in doubt.
 int intervals_overlap(const TriangleCorners& a, const std::array<double, 3>& side_a,
                       const TriangleCorners& b, const std::array<double, 3>& side_b) {
   const size_t i = lone_corner(side_a), j = lone_corner(side_b);
   const Vec3 &p = a[i], &u = b[j];
   Vec3 q = a[(i + 1) % 3], r = a[(i + 2) % 3], v = b[(j + 1) % 3], w = b[(j + 2) % 3];
-  // Turned so that each lone corner is above the other's plane.
+  // Rotated so that each lone corner is above the other's plane.
   if (side_b[j] < 0) std::swap(q, r);
   if (side_a[i] < 0) std::swap(v, w);
   const int first = sure_orientation(p, q, u, v), second = sure_orientation(p, r, w, u);
@@ -92,9 +92,9 @@ bool corners_within(const TriangleCorners& a, const TriangleCorners& b, double m
   return false;
 }
 
-/// Whether all corners of b are surely farther than `margin` on one side of a's plane: heights are
-/// products of three lengths, rounded some dozens of times, and the normal of a needle is little
-/// else than that.
+/// Whether all corners of b are certainly farther than `margin` on one side of a's plane. The bound
+/// accounts for heights as products of three lengths with about a dozen roundings; the normal of a
+/// needle may consist of rounding errors only.
 bool beyond_plane(const TriangleCorners& a, const TriangleCorners& b, double margin) {
   const Vec3 n = (a[1] - a[0]).cross(a[2] - a[0]);
   const std::array<Vec3, 3> way{b[0] - a[0], b[1] - a[0], b[2] - a[0]};

@@ -12,7 +12,7 @@ float half_area(const BinaryNode& n) {
   return x * y + y * z + z * x;
 }
 
-/// Up to four nodes that together are what is below a node.
+/// Up to four nodes that together cover a subtree.
 struct Family {
   std::array<uint32_t, 4> nodes;
   size_t size = 0;
@@ -37,7 +37,7 @@ struct Family {
 
 WideTree::WideTree(const std::vector<BinaryNode>& nodes, const TriangleMesh& mesh,
                    const std::vector<uint32_t>& order) {
-  triangles_.reserve(order.size() + 8);  // so that what is fetched ahead is there
+  triangles_.reserve(order.size() + 8);  // so that prefetching stays within the allocation
   for (const uint32_t t : order) triangles_.push_back(mesh.triangles[t]);
   struct Task {
     uint32_t binary, parent, slot;

@@ -14,7 +14,7 @@ Error fault(std::string message) {
   return Error{ErrorCode::internal, std::move(message), {}, {}};
 }
 
-/// All numbers refer to something.
+/// Checks that all indices are in range.
 Status check_indices(const ConvexPolyhedron& hull) {
   const size_t sides = hull.face_vertices.size(), faces = hull.face_count();
   const auto below = [](const std::vector<uint32_t>& list, size_t limit) {
@@ -44,7 +44,7 @@ Status check_indices(const ConvexPolyhedron& hull) {
   return {};
 }
 
-/// Every vertex and face can be reached from the first along half-edges.
+/// Whether every vertex and face can be reached from the first one along half-edges.
 bool is_connected(const ConvexPolyhedron& hull) {
   std::vector<uint8_t> seen(hull.face_count(), 0);
   std::vector<uint32_t> stack{0};
@@ -93,7 +93,7 @@ Status check_topology(const ConvexPolyhedron& hull) {
   return {};
 }
 
-/// Loops turn left at every corner, seen from outside.
+/// Checks that loops turn left at every corner, seen from outside.
 Status check_face(const ConvexPolyhedron& hull, size_t f, double epsilon) {
   const auto loop = hull.face(f);
   const Plane& plane = hull.planes[f];

@@ -11,11 +11,11 @@
 namespace tumble {
 namespace {
 
-/// Limits of the largest coordinate [m], for products of three to be exact.
+/// Range of the largest coordinate [m] in which products of three differences are exact.
 constexpr double hull_smallest = 1e-40, hull_largest = 1e40;
-/// Coordinates below this times the largest count as zero, for the same reason.
+/// Coordinates below this times the largest count as zero, for the same reason [-].
 constexpr double hull_negligible = 1e-30;
-/// Coordinates themselves are only good to their last place.
+/// Relative rounding error of the coordinates themselves [-].
 constexpr double hull_rounding = 4e-15;
 
 Error bad_hull_input(std::string message, std::string cure = {}) {
@@ -45,7 +45,7 @@ Status check_hull_input(std::span<const Vec3> points, const HullOptions& options
   return {};
 }
 
-/// The points used by triangles or facets, ascending, which are renumbered to match.
+/// The points used by triangles or facets, ascending; the indices in these are renumbered to match.
 template <class Corners>
 std::vector<uint32_t> compact(size_t points, Corners&& for_each_corner) {
   std::vector<uint32_t> number(points, no_index), used;
@@ -66,7 +66,7 @@ std::vector<Vec3> pick(std::span<const Vec3> points, const std::vector<uint32_t>
   return out;
 }
 
-/// The polyhedron of facets over `points`; `used` becomes the points that it keeps.
+/// The polyhedron of facets over `points`; `used` receives the points that it keeps.
 Result<ConvexPolyhedron> assemble(std::span<const Vec3> points, MergedFacets facets,
                                   std::vector<uint32_t>& used) {
   used = compact(points.size(), [&](const auto& use) {
@@ -80,7 +80,7 @@ bool euler_holds(const ConvexPolyhedron& p) {
   return p.vertices.size() + p.face_count() == p.edges.size() + 2;
 }
 
-/// The hull of points whose coordinates suit the exact predicates.
+/// The hull of points whose coordinates are in the range of the exact predicates.
 Result<ConvexHull> hull_of(std::span<const Vec3> points, double tolerance) {
   auto triangles = quickhull(points, tolerance);
   if (!triangles) return triangles.error();
@@ -94,7 +94,8 @@ Result<ConvexHull> hull_of(std::span<const Vec3> points, double tolerance) {
   out.tolerance = 2 * tolerance;
   auto merged = assemble(vertices, merge_facets(vertices, *triangles, tolerance), out.source);
   if (!merged || !euler_holds(*merged)) {
-    // Two facets meet at more than one edge. The triangles themselves are always right.
+    // Two facets share more than one edge: unmerged triangles are used instead, which are always
+    // valid.
     merged = assemble(vertices, separate_facets(vertices, *triangles, tolerance), out.source);
     if (!merged) return merged.error();
   }

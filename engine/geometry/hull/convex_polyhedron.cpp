@@ -7,7 +7,8 @@
 namespace tumble {
 namespace {
 
-/// Newell's normal of a loop and the lowest plane across it that has the whole loop inside.
+/// The plane with Newell's normal of a loop, moved outwards until the whole loop is on its inner
+/// side.
 Plane plane_of(const std::vector<Vec3>& vertices, std::span<const uint32_t> loop) {
   const Vec3& origin = vertices[loop[0]];
   Vec3 n = Vec3::Zero();
@@ -28,7 +29,7 @@ struct DirectedSide {
 };
 
 Status link_half_edges(ConvexPolyhedron& p) {
-  // Sides gathered at their lower vertex, few at each.
+  // Sides are grouped by their lower vertex, a few for each.
   const auto sides = uint32_t(p.face_vertices.size());
   const auto ends = [&p](uint32_t h) {
     return std::pair(p.face_vertices[h], p.face_vertices[p.next(h)]);
@@ -78,7 +79,8 @@ void link_neighbours(ConvexPolyhedron& p) {
   for (size_t v = 0; v < p.vertices.size(); ++v) p.neighbour_first[v + 1] += p.neighbour_first[v];
   p.neighbours.assign(p.neighbour_first.back(), 0);
   std::vector<uint32_t> cursor(p.neighbour_first.begin(), p.neighbour_first.end() - 1);
-  // Edges come sorted by (low, high): the lower neighbours of a vertex first, then the higher.
+  // Edges are sorted by (low, high): a vertex gets its lower neighbours first, then the higher
+  // ones.
   for (const PolyhedronEdge& e : p.edges) p.neighbours[cursor[e.vertices[1]]++] = e.vertices[0];
   for (const PolyhedronEdge& e : p.edges) p.neighbours[cursor[e.vertices[0]]++] = e.vertices[1];
 }
@@ -140,7 +142,8 @@ bool turns_left(std::span<const Vec3> points, std::span<const uint32_t> loop, co
   for (size_t k = 0; k < n; ++k) {
     const uint32_t b = loop[(k + 1) % n], c = loop[(k + 2) % n];
     if (!left(loop[k], b, c)) return false;
-    // All triangles of the fan around the first corner: loops that wind more than once fail here.
+    // Checks all triangles of the fan around the first corner, which rejects loops that wind more
+    // than once.
     if (k + 2 < n && !left(loop[0], b, c)) return false;
   }
   return true;

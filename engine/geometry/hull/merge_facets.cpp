@@ -9,15 +9,15 @@
 namespace tumble {
 namespace {
 
-/// How narrowly a facet is merged: the share of the tolerance shrinks by 16 a level, and at the
-/// last one its seed stays alone.
+/// Levels of merging: at each level the tolerance shrinks by a factor of 16, and at the last one
+/// the seed triangle remains a facet of its own.
 constexpr uint8_t level_alone = 6;
-/// Rounds of merging until facets in trouble are no longer merged at all, and until none is.
+/// Rounds after which facets that fail are no longer merged at all, and after which none is.
 constexpr int rounds_patient = 8, rounds_most = 40;
-/// Outlines with more corners than this are tested for strict convexity only.
+/// Outlines with more corners than this are only tested for strict convexity.
 constexpr size_t outline_large = 1024;
 
-/// The plane of a triangle, moved out to have all three corners inside.
+/// The plane of a triangle, moved outwards until all three corners are on its inner side.
 Plane support_plane(std::span<const Vec3> points, const Triangle& t, const Vec3& normal) {
   double offset = normal.dot(points[t[0]]);
   for (uint32_t v : t) offset = std::max(offset, normal.dot(points[v]));
@@ -76,7 +76,7 @@ class Merger {
     for (uint32_t v : triangles_[t].vertices) {
       if (std::fabs(plane.distance(points_[v])) > within) return false;
     }
-    // The normal of a sliver says nothing; its corners do.
+    // The normal of a sliver is meaningless; its corners are tested instead.
     const bool sliver = shapes_[t].area2 <= 4 * tolerance_ * shapes_[t].longest;
     return sliver || shapes_[t].normal.dot(plane.normal) > 0.5;
   }
@@ -111,7 +111,7 @@ class Merger {
       least = std::min(least, a);
     });
     if (sides < 3) return false;
-    // A vertex with two ways out is passed once only, and the loop then is too short.
+    // A vertex with two outgoing sides is passed only once, which makes the loop too short.
     const size_t begin = outlines_.size();
     uint32_t at = least;
     do {
@@ -123,7 +123,8 @@ class Merger {
     return false;
   }
 
-  /// The facet around `seed`: as wide as its level allows, narrower where that gives no loop.
+  /// Merges the facet around `seed`, as large as its level allows, or smaller if that does not give
+  /// a simple loop.
   void join(uint32_t seed, const Plane& plane) {
     for (uint8_t& level = level_[seed]; level < level_alone; ++level) {
       grow(seed, plane, tolerance_ * std::pow(2.0, -4 * level));
@@ -166,10 +167,10 @@ class Merger {
     }
   }
 
-  /// Leaves out corners of two facets and facets of two corners. False when that would move the
-  /// surface too far; the facets in question are then narrowed.
+  /// Removes corners where only two facets meet, and facets with two corners. False if that would
+  /// move the surface too far; the level of the facets concerned is then raised.
   bool drop_corners() {
-    // How many facets meet at each corner; a facet of two corners vanishes, and counts no longer.
+    // Number of facets at each corner; a facet with two corners vanishes and is no longer counted.
     std::fill(meets_.begin(), meets_.end(), 0u);
     for (uint32_t v : outlines_) ++meets_[v];
     std::vector<uint32_t> loop;
@@ -210,7 +211,7 @@ class Merger {
     return good;
   }
 
-  /// Whether all corners of facet f that are left out lie on the sides that replace them.
+  /// Whether all removed corners of facet f lie on the sides that replace them.
   bool chains_are_straight(size_t f, std::vector<uint8_t>& bad) const {
     const auto corners = outline(f);
     const size_t n = corners.size();
@@ -258,14 +259,15 @@ class Merger {
   std::span<const HullTriangle> triangles_;
   double tolerance_;
   std::vector<TriangleShape> shapes_;
-  std::vector<uint8_t> level_;   // of the facet that each triangle is the seed of
-  std::vector<uint32_t> links_;  // the corner after each in the outline being made
-  std::vector<uint32_t> meets_;  // facets at each point
+  std::vector<uint8_t> level_;   // level of the facet whose seed is each triangle
+  std::vector<uint32_t> links_;  // next corner of each one in the outline being built
+  std::vector<uint32_t> meets_;  // number of facets at each point
   std::vector<uint32_t> order_;  // triangles, largest first
   bool patient_ = true;
-  std::vector<uint32_t> region_;  // the seed of each triangle's facet
+  std::vector<uint32_t> region_;  // seed of the facet that each triangle belongs to
   std::vector<uint32_t> members_;
-  std::vector<uint32_t> seeds_, first_, outlines_;  // facets: seed, outline before dropping
+  // Of facets: seed, and outline before corners are removed.
+  std::vector<uint32_t> seeds_, first_, outlines_;
   std::vector<Plane> planes_;
   std::vector<uint8_t> gone_;
 };

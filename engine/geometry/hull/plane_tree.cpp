@@ -63,7 +63,8 @@ uint32_t PlaneTree::first_outside(const Vec3& p, double epsilon) const {
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
     const Vec3 q = p - node.anchor;
-    // A normal at angle t from the axis: n.q = cos t (axis.q) + sin t times a part of the rest.
+    // For a normal at angle t from the axis: n.q = cos t (axis.q) + sin t times at most the
+    // perpendicular component.
     const double along = node.axis.dot(q);
     const double across = (q - along * node.axis).norm();
     const double most = along * (along > 0 ? 1 : node.cosine) + across * node.sine;

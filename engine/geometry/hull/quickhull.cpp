@@ -8,27 +8,27 @@
 
 #include <fmt/format.h>
 
-// Quickhull with exact visibility. Because "above" is decided exactly, the faces that a point sees
-// always form a disc with a simple horizon, every new triangle has area, and the surface stays a
-// closed convex one for any input.
+// Quickhull with exact visibility. Because "above" is decided exactly, the faces visible from a
+// point always form a disc with a simple horizon, every new triangle has area, and the surface
+// stays closed and convex for any input.
 //
-// A point outside hangs on one face that it is exactly above. It is let go when it is inside, or
-// within the tolerance of a triangle of the hull: the hull only grows, so it stays that near. Most
-// points are decided by their height over a face; exact arithmetic only answers for points in the
-// plane of a face, yet away from its triangle.
+// Each point outside is listed at one face that it is exactly above. It is dropped once it is
+// inside, or within the tolerance of a triangle of the hull; since the hull only grows, it stays
+// that near. Most points are decided by their floating-point height above a face; exact arithmetic
+// is only needed for points in the plane of a face but away from its triangle.
 namespace tumble {
 namespace {
 
 struct QuickhullFace {
-  Vec3 normal, corner;  // corner is that of v[0]
-  double uncertainty;   // of height() [m]
-  double highest;       // of the points above [m]
+  Vec3 normal, corner;  // corner is v[0]
+  double uncertainty;   // error bound of height() [m]
+  double highest;       // height of the highest point listed here [m]
   uint32_t apex;        // the highest of them
-  uint32_t first;       // of the points above, in a list through next_
-  uint32_t mark;        // the last search that saw this face
-  bool queued = false;  // its place is in a queue
+  uint32_t first;       // first point of the face's list, which is linked by next_
+  uint32_t mark;        // number of the last search that found this face visible
+  bool queued = false;  // it is in a queue
   Triangle v;
-  std::array<uint32_t, 3> next;  // face across side k
+  std::array<uint32_t, 3> next;  // the face across side k
 
   double height(const Vec3& p) const { return normal.dot(p - corner); }
 };
@@ -66,7 +66,7 @@ class Quickhull {
   }
 
  private:
-  /// How high points stand above a face, as far as it matters [m].
+  /// Greatest height of the points of a face, at least the tolerance [m].
   double urgency(const QuickhullFace& f) const { return std::max(f.highest, tolerance_); }
 
   void enqueue(uint32_t f, std::vector<uint32_t>& queue) {
@@ -75,9 +75,9 @@ class Quickhull {
     queue.push_back(f);
   }
 
-  /// Faces in the order of height by an eighth, so that the hull becomes round everywhere before
-  /// it becomes fine anywhere: no point then sees very many faces. Among those of about the same
-  /// height the last one made comes first, as its surroundings are still in the cache.
+  /// Processes faces by height in steps of an eighth, so that the hull grows evenly and no point
+  /// sees very many faces. Among those of about equal height the newest comes first, since its
+  /// surroundings are still in the cache.
   bool next_queue() {
     double highest = 0;
     for (uint32_t f : later_) {
@@ -115,7 +115,7 @@ class Quickhull {
     const TriangleShape shape = triangle_shape(points_[a], points_[b], points_[c], good_normal_);
     face.normal = shape.normal;
     face.corner = points_[a];
-    // Five roundings of the difference and the product, and the tilt of the normal.
+    // Five roundings of the difference and the product, and the error of the normal.
     face.uncertainty = extent_ * (8 * 0x1p-53 + shape.uncertain);
     face.highest = 0;
     face.apex = face.first = no_index;
@@ -132,7 +132,7 @@ class Quickhull {
     face.first = p;
   }
 
-  /// Hangs `p` on one of the fresh faces, or lets it go.
+  /// Lists `p` at one of the new faces, or drops it.
   void assign(uint32_t p) {
     const Vec3& x = points_[p];
     bool doubtful = false;
@@ -172,7 +172,7 @@ class Quickhull {
             cure};
   }
 
-  /// A tetrahedron of points far from each other, and every other point on one of its faces.
+  /// Makes a tetrahedron of distant points and lists every other point at one of its faces.
   Status start() {
     const double least = 4 * tolerance_;
     const auto from = [](const Vec3& o) {
@@ -199,7 +199,7 @@ class Quickhull {
 
     std::array<uint32_t, 4> t{a, b, c, d};
     if (side > 0) std::swap(t[0], t[1]);
-    // t[3] is now below t[0] t[1] t[2].
+    // t[3] is now below the plane of t[0] t[1] t[2].
     next_.resize(points_.size());
     start_at_.resize(points_.size());
     faces_.resize(4);
@@ -219,7 +219,7 @@ class Quickhull {
     return {};
   }
 
-  /// Gathers every face that `p` is above, from one such; they are connected.
+  /// Collects all faces that `p` is above, starting from one of them; they are connected.
   void find_visible(uint32_t from, uint32_t p) {
     ++mark_;
     visible_.assign(1, from);
@@ -235,7 +235,7 @@ class Quickhull {
   }
 
   struct HorizonSide {
-    uint32_t a, b, beyond, side;  // from a to b; its place in the face beyond
+    uint32_t a, b, beyond, side;  // edge from a to b; its side of the face beyond
   };
 
   void find_horizon() {
@@ -253,7 +253,7 @@ class Quickhull {
     }
   }
 
-  /// Replaces the visible faces by a fan from the horizon to `apex`, in their places first.
+  /// Replaces the visible faces by a fan from the horizon to `apex`, reusing their indices.
   void add_point(uint32_t apex) {
     find_horizon();
     orphans_.clear();
@@ -288,8 +288,8 @@ class Quickhull {
     }
   }
 
-  /// Points that are barely above `from`, if at all, yet away from its triangle: those further than
-  /// the tolerance from all that they see are corners.
+  /// Points hardly or not above `from`, but away from its triangle: those farther than the
+  /// tolerance from all faces that they see are added as vertices.
   void add_leftovers(uint32_t from) {
     while (faces_[from].first != no_index) {
       const uint32_t p = faces_[from].first;
@@ -323,12 +323,12 @@ class Quickhull {
   double tolerance_;
   double extent_ = 0, good_normal_ = 0, threshold_ = 0;
   std::vector<QuickhullFace> faces_;
-  std::vector<uint32_t> next_;  // the point after each in the list of its face
-  std::vector<uint32_t> free_;  // places of faces that are gone
+  std::vector<uint32_t> next_;  // next point in the list of the same face
+  std::vector<uint32_t> free_;  // free face indices
   std::vector<uint32_t> queue_, later_;
   std::vector<uint32_t> visible_, fresh_, orphans_;
   std::vector<HorizonSide> horizon_;
-  std::vector<uint32_t> start_at_;  // the fresh face whose horizon side starts at a point
+  std::vector<uint32_t> start_at_;  // new face whose horizon side starts at a point
   uint32_t mark_ = 0;
 };
 

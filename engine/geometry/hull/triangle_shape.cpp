@@ -8,7 +8,8 @@
 namespace tumble {
 namespace {
 
-/// (b - a) x (c - a) with exact differences and products to 64 u^2 of the sides'.
+/// (b - a) x (c - a) from exact differences, with an error of 64 u^2 times the product of the
+/// sides.
 Vec3 fine_product(const Vec3& a, const Vec3& b, const Vec3& c) {
   using Fine = Triple<DoubleDouble>;
   const Fine n = (Fine::of(b) - Fine::of(a)).cross(Fine::of(c) - Fine::of(a));
@@ -28,8 +29,8 @@ TriangleShape triangle_shape(const Vec3& a, const Vec3& b, const Vec3& c, double
   Vec3 n = u.cross(w);
   double area2 = n.norm();
   const double square = std::max({u.squaredNorm(), w.squaredNorm(), (w - u).squaredNorm()});
-  // Each component is off by at most 4 u (|u_y w_z| + |u_z w_y|), the vector by sqrt(3) times that
-  // with |u| |w| for the sum; its scaling to length 1 by three roundings.
+  // Each component has an error of at most 4 u (|u_y w_z| + |u_z w_y|), the vector sqrt(3) times
+  // that, with |u| |w| for the sum; normalisation adds three roundings.
   constexpr double u_round = 0x1p-53, few = 4;
   double uncertain = u_round * (8 * square / area2 + few);
   if (!(uncertain <= good_enough)) {

@@ -9,25 +9,25 @@ namespace tumble {
 namespace {
 
 constexpr int brick_edge = SparseField::edge;
-constexpr int window_edge = brick_edge + 1;  ///< nodes of a brick with those that follow it
+constexpr int window_edge = brick_edge + 1;  ///< nodes of a brick and those that follow it
 
 /// Corners of a cube are numbered by bits: 1 for x, 2 for y, 4 for z. An edge of a tetrahedron goes
-/// from a corner to one that has more bits; it belongs to the node that it starts at, and is number
-/// (end without start) - 1 of its seven.
+/// from a corner to one with a superset of its bits; it belongs to the node where it starts, as
+/// number (end without start) - 1 of seven.
 using Tetrahedron = std::array<uint8_t, 4>;
 
-/// Kuhn's: from corner 0 to corner 7 along the axes in each order. The second and third corners are
-/// swapped where the order is odd, so that all have positive volume.
+/// Kuhn's triangulation: paths from corner 0 to corner 7 along the axes in each order. Second and
+/// third corners are swapped for odd permutations, so that all have positive volume.
 constexpr std::array<Tetrahedron, 6> tetrahedra = {
     {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}}};
 
-/// Even permutations that bring a corner to the front, or two.
+/// Even permutations that bring one corner, or two, to the front.
 constexpr std::array<Tetrahedron, 4> lone_first = {
     {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}}};
 constexpr std::array<Tetrahedron, 6> pair_first = {
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
-/// The vertices of a brick's edges: those of node n are first[n] and on, one for each bit of
+/// The vertices on a brick's edges: those of node n start at first[n], one for each bit set in
 /// cut[n], in the order of the bits.
 struct BrickVertices {
   GridIndex at{};
@@ -39,7 +39,7 @@ constexpr size_t node_number(int x, int y, int z, int along) {
   return size_t((z * along + y) * along + x);
 }
 
-/// Values of a brick's nodes and of those that follow.
+/// Values of a brick's nodes and of the nodes that follow it.
 class Window {
  public:
   Window(const SparseField& field, const GridIndex& at) {
@@ -55,7 +55,7 @@ class Window {
                 brick ? brick->value[node_number(x, y, z, brick_edge)] : field.outside;
     }
   }
-  /// Of the corner of the cube at a node.
+  /// The value at a corner of the cube at a node.
   double at(int x, int y, int z, int corner) const {
     return value_[node_number(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2 & 1),
                               window_edge)];
@@ -86,13 +86,13 @@ class Marching {
 
   const SparseField& field_;
   std::vector<BrickVertices> bricks_;
-  /// The bricks about the one whose cubes are cut, by bits as corners are; null for none.
+  /// The neighbouring bricks, numbered by bits like corners; null: none.
   std::array<const BrickVertices*, 8> near_{};
   std::array<int, 3> cube_{};
   TriangleMesh mesh_;
 };
 
-/// Cubes that touch a known node begin in its brick or one before it.
+/// Cubes that touch a known node start in its brick or the one before.
 void Marching::place_bricks() {
   std::vector<GridIndex> places;
   for (const auto& brick : field_.bricks)
@@ -105,7 +105,8 @@ void Marching::place_bricks() {
 }
 
 void Marching::make_vertices(const Window& window, BrickVertices& brick) {
-  constexpr double nearest = 1e-6;  // to a node, in lengths of the edge
+  // Least distance of a vertex from a node, in lengths of the edge.
+  constexpr double nearest = 1e-6;
   size_t n = 0;
   for (int z = 0; z < brick_edge; ++z)
     for (int y = 0; y < brick_edge; ++y)
@@ -167,7 +168,7 @@ void Marching::cut_tetrahedron(const Tetrahedron& corners, int inside) {
     }
     return;
   }
-  const bool turned = count == 3;  // the lone corner is the one outside
+  const bool turned = count == 3;  // the lone corner is outside
   const int lone = std::countr_zero(unsigned(turned ? ~bits & 15 : bits));
   const Tetrahedron& p = lone_first[size_t(lone)];
   const int a = corners[p[0]];

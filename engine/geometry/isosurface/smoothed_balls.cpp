@@ -11,7 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr int nodes_along = SparseField::edge;  ///< of a brick
-constexpr double reach_of_ball = 4;  ///< in its radii: twice the distance of touching balls [-]
+constexpr double reach_of_ball = 4;  ///< in radii: twice the distance of touching balls [-]
 
 /// A ball that reaches into a brick.
 struct Meeting {
@@ -30,12 +30,12 @@ Status check_balls(std::span<const Vec3> centres, std::span<const double> radii,
   return check_spacing(spacing, box);
 }
 
-/// First and last of the bricks, or nodes, of a size that an interval touches.
+/// First and last index of the bricks, or nodes, of a size that an interval touches.
 std::pair<int32_t, int32_t> bricks_between(double from, double to, double size) {
   return {int32_t(std::floor(from / size)), int32_t(std::floor(to / size))};
 }
 
-/// From a point to the nodes of a brick, or less [m].
+/// Distance from a point to the nodes of a brick, or a lower bound of it [m].
 double distance_to(const GridIndex& brick, double spacing, const Vec3& x) {
   Vec3 apart;
   for (int k = 0; k < 3; ++k) {
@@ -45,8 +45,8 @@ double distance_to(const GridIndex& brick, double spacing, const Vec3& x) {
   return apart.norm();
 }
 
-/// Which balls reach into which bricks, in the order of both; an error when they are too
-/// many.
+/// All pairs of balls and bricks into which they reach, ordered by brick, then ball; an error if
+/// there are too many.
 Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<const double> radii,
                                       double spacing) {
   std::vector<Meeting> out;
@@ -66,7 +66,7 @@ Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<c
           bricks_between(centres[i][k] - r, centres[i][k] + r, spacing * nodes_along);
       own *= double(ranges[size_t(k)].second) - ranges[size_t(k)].first + 1;
     }
-    // A brick is met by hundreds of balls at most where radii and cells fit each other.
+    // If radii and cells fit each other, at most some hundred balls reach into a brick.
     if ((count += own) > 256.0 * double(most_bricks)) return crowd;
     for (int32_t a = ranges[0].first; a <= ranges[0].second; ++a)
       for (int32_t b = ranges[1].first; b <= ranges[1].second; ++b)
@@ -81,7 +81,7 @@ Result<std::vector<Meeting>> meetings(std::span<const Vec3> centres, std::span<c
   return out;
 }
 
-/// Weighted sums at the nodes of a brick, a row along x at a time.
+/// Weighted sums at the nodes of a brick, computed one row along x at a time.
 class BrickSums {
  public:
   BrickSums(const SparseField& field, const GridIndex& brick) : h_(field.spacing) {
@@ -103,7 +103,7 @@ class BrickSums {
       }
     }
   }
-  /// False where no ball reaches a node.
+  /// Writes the values; false if no ball reaches any node.
   bool give(SparseField::Brick& out, double outside) const {
     bool any = false;
     for (size_t n = 0; n < weight_.size(); ++n) {
@@ -118,7 +118,7 @@ class BrickSums {
   using Row = std::array<double, nodes_along>;
   using Nodes = std::array<double, nodes_along * nodes_along * nodes_along>;
 
-  /// `rest` is 1 less the part of (d/R)^2 that the row has in common.
+  /// `rest` is 1 minus the part of (d/R)^2 that is common to the row.
   void add_row(size_t at, const Row& dx, double dy, double dz, double rest, double scale,
                double radius) {
     for (size_t k = 0; k < dx.size(); ++k) {
@@ -135,7 +135,7 @@ class BrickSums {
   double h_;
   std::array<int, 3> first_;
   Nodes weight_, radius_;
-  Nodes x_, y_, z_;  ///< of the ways from the node to the centres
+  Nodes x_, y_, z_;  ///< displacements from the node to the weighted centres
 };
 
 }  // namespace
@@ -147,11 +147,11 @@ Result<SparseField> smoothed_balls(std::span<const Vec3> centres, std::span<cons
   out.spacing = spacing;
   const double largest = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
   if (!(largest > 0)) return out;
-  // What the field comes to at the end of the reach of a ball.
+  // The value that the field has at the limit of a ball's reach.
   out.outside = (reach_of_ball - 1) * largest;
   const auto met = meetings(centres, radii, spacing);
   if (!met) return met.error();
-  std::vector<size_t> starts;  // of the balls of a brick
+  std::vector<size_t> starts;  // first ball of each brick
   for (size_t i = 0; i < met->size(); ++i)
     if (i == 0 || (*met)[i].brick != (*met)[i - 1].brick) starts.push_back(i);
   out.bricks.resize(starts.size());
@@ -167,7 +167,7 @@ Result<SparseField> smoothed_balls(std::span<const Vec3> centres, std::span<cons
       reached[b] = sums.give(brick, out.outside);
     }
   };
-  constexpr size_t least_bricks = 16;  // that are worth another thread
+  constexpr size_t least_bricks = 16;  // fewest bricks worth another thread
   for_chunks(crew, out.bricks.size(), fill, least_bricks);
   size_t kept = 0;
   for (size_t b = 0; b < out.bricks.size(); ++b) {

@@ -21,7 +21,7 @@ Status check_spacing(double spacing, const Aabb& box) {
                  {},
                  {}};
   if (box.empty()) return {};
-  constexpr double most_nodes = double(1 << 30);  // so that neighbours' places are integers too
+  constexpr double most_nodes = double(1 << 30);  // so that indices of neighbours are in range too
   const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
   if (farthest <= most_nodes * spacing) return {};
   return Error{ErrorCode::invalid_argument,

@@ -10,7 +10,7 @@ Mat3 diagonal(double x, double y, double z) {
   return Vec3(x, y, z).asDiagonal();
 }
 
-/// |d|^2 1 - d d^T
+/// d|^2 1 - d d^T, for the parallel axis theorem.
 Mat3 steiner(const Vec3& d) {
   return d.squaredNorm() * Mat3::Identity() - d * d.transpose();
 }
@@ -40,10 +40,10 @@ MassProperties cylinder_mass(double half_height, double radius, double density) 
 MassProperties capsule_mass(double half_height, double radius, double density) {
   const double r2 = radius * radius, h = half_height;
   const MassProperties middle = cylinder_mass(half_height, radius, density);
-  const double ball = density * 4.0 / 3.0 * det::pi * r2 * radius;  // both half balls
-  // A half ball's centre lies 3r/8 from its flat face; its inertia across, about that face's
-  // centre, is that of the ball: 2/5 m r^2. Moved by h along the axis:
-  // I = 2/5 m r^2 + m h^2 + 2 m h 3r/8.
+  const double ball = density * 4.0 / 3.0 * det::pi * r2 * radius;  // mass of both half balls
+  // The centre of mass of a half ball is 3r/8 from its flat face; its transverse inertia about the
+  // centre of that face is that of the ball, 2/5 m r^2. Moved by h along the axis: I = 2/5 m r^2 +
+  // m h^2 + 2 m h 3r/8.
   const double along = 0.4 * ball * r2;
   const double across = along + ball * (h * h + 0.75 * h * radius);
   return {middle.mass + ball, Vec3::Zero(), middle.inertia + diagonal(across, along, across)};
@@ -74,7 +74,7 @@ MassProperties tetrahedron_mass(const Vec3& a, const Vec3& b, const Vec3& c, con
                                 double density) {
   const Vec3 u = b - a, v = c - a, w = d - a, middle = (u + v + w) / 4;
   const double m = density * std::fabs(u.dot(v.cross(w))) / 6;
-  // About the centre the integral of x x^T is m / 20 times the sum over the corners.
+  // About the centre, the integral of x x^T is m / 20 times the sum over the corners.
   Mat3 second = middle * middle.transpose();
   for (const Vec3& p : {u, v, w}) second += (p - middle) * (p - middle).transpose();
   second *= m / 20;
@@ -91,7 +91,7 @@ MassProperties compound(std::span<const MassProperties> parts) {
   MassProperties out;
   Vec3 moment = Vec3::Zero();
   if (parts.empty()) return out;
-  const Vec3 origin = parts.front().centre;  // local, for accuracy far from the frame's origin
+  const Vec3 origin = parts.front().centre;  // local, for accuracy far from the origin of the frame
   for (const MassProperties& p : parts) {
     out.mass += p.mass;
     moment += p.mass * (p.centre - origin);

@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// About the middle of the mesh: of the bounds of at most 64 triangles all over it.
+/// An origin near the middle of the mesh, from the bounds of at most 64 triangles spread over it.
 Vec3 local_origin(const TriangleMesh& mesh) {
   const size_t step = (mesh.triangles.size() + 63) / 64;
   Aabb box;

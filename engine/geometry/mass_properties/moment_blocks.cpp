@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-/// Vectors of n doubles. Terms are computed n triangles at a time and added to four lanes in the
-/// order of the triangles: a lane's bits do not depend on n.
+/// Vectors of n doubles. Terms are computed for n triangles at a time and added to four lanes in
+/// the order of the triangles, so that the bits of a lane do not depend on n.
 template <size_t n>
 struct Lanes {
   typedef double Values __attribute__((vector_size(8 * n)));
@@ -18,12 +18,12 @@ struct Lanes {
 };
 using Pair = Lanes<2>::Values;
 using Four = Lanes<4>::Values;
-// (A typedef: clang heeds the lower alignment only there.)
+// (A typedef, since clang honours the lower alignment only there.)
 typedef double LoosePair __attribute__((vector_size(16), aligned(8), may_alias));
 
 constexpr size_t lane_count = 4;
 
-/// Corner k of two or four triangles, from the origin. x and y come together.
+/// Loads corner k of two or four triangles, relative to the origin. x and y are loaded together.
 [[gnu::always_inline]] inline void load_corners(const Vec3* vertices, const Triangle* t, size_t k,
                                                 const Vec3& origin, Pair& x, Pair& y, Pair& z) {
   const double *p = vertices[t[0][k]].data(), *q = vertices[t[1][k]].data();
@@ -46,8 +46,8 @@ constexpr size_t lane_count = 4;
   z = Four{p[2], q[2], r[2], s[2]} - origin.z();
 }
 
-/// A sum in four lanes, to which terms of two triangles (the first or the second half of four) or
-/// of four are added. total4() adds the lanes of four sums: (0 + 1) + (2 + 3).
+/// A sum in four lanes, to which terms of two triangles (lanes 0, 1 or 2, 3) or of four are added.
+/// total4() adds the lanes of four sums: (0 + 1) + (2 + 3).
 struct PairSum {
   Pair half[2] = {};
   [[gnu::always_inline]] void add(size_t part, const Pair& x) { half[part] += x; }
@@ -75,13 +75,13 @@ struct FourSum {
   }
 };
 
-/// All sums, by name and not in an array, so that the compiler keeps them in registers.
+/// All sums, as named members instead of an array, so that the compiler keeps them in registers.
 template <class Sum>
 struct TermSums {
   Sum volume, x, y, z, xx, yy, zz, xy, yz, zx, size, size_squares;
 };
 
-/// Terms of `n` triangles, with what rounding is relative to.
+/// Adds the terms of `n` triangles, and their magnitudes for the bound of rounding.
 template <size_t n, class Sum>
 [[gnu::always_inline]] inline void add_terms(const Vec3* vertices, const Triangle* triangles,
                                              const Vec3& origin, size_t part, TermSums<Sum>& sums) {
@@ -89,13 +89,14 @@ template <size_t n, class Sum>
   using Bits = typename Lanes<n>::Bits;
   V x[3], y[3], z[3];
   for (size_t k = 0; k < 3; ++k) load_corners(vertices, triangles, k, origin, x[k], y[k], z[k]);
-  // Six times the volume of the tetrahedron, from two sides, so that small triangles lose nothing
+  // Six times the volume of the tetrahedron, from two sides, so that small triangles lose no digits
   // to cancellation.
   const V ux = x[1] - x[0], uy = y[1] - y[0], uz = z[1] - z[0];
   const V vx = x[2] - x[0], vy = y[2] - y[0], vz = z[2] - z[0];
   const V yz = uy * vz, zy = uz * vy, zx = uz * vx, xz = ux * vz, xy = ux * vy, yx = uy * vx;
   const V d = (x[0] * (yz - zy) + y[0] * (zx - xz)) + z[0] * (xy - yx);
-  // Sums of two corners p, q, r: a a^T + b b^T + c c^T + s s^T = p p^T + q q^T + r r^T.
+  // With sums of two corners p, q, r and s of all three: a a^T + b b^T + c c^T + s s^T = p p^T + q
+  // q^T + r r^T.
   const V px = x[0] + x[1], py = y[0] + y[1], pz = z[0] + z[1];
   const V qx = x[1] + x[2], qy = y[1] + y[2], qz = z[1] + z[2];
   const V rx = x[2] + x[0], ry = y[2] + y[0], rz = z[2] + z[0];
@@ -113,14 +114,15 @@ template <size_t n, class Sum>
   sums.zx.add(part, d * ((pz * px + qz * qx) + rz * rx));
   const Bits positive = Bits{} + 0x7fffffffffffffffll;
   const V parts[9] = {x[0], y[0], z[0], yz, zy, zx, xz, xy, yx};
-  V m[9];  // their magnitudes
+  V m[9];  // their absolute values
   for (size_t k = 0; k < 9; ++k) m[k] = V(Bits(parts[k]) & positive);
   const V size = (m[0] * (m[3] + m[4]) + m[1] * (m[5] + m[6])) + m[2] * (m[7] + m[8]);
   sums.size.add(part, size);
   sums.size_squares.add(part, size * (xx + yy + zz));
 }
 
-/// Sums of one block; lanes are added last. Inlined into functions for different instruction sets.
+/// Sums of one block; lanes are added at the end. Inlined into functions for different instruction
+/// sets.
 template <size_t n, class Sum>
 [[gnu::always_inline]] inline void add_block(const Vec3* vertices, const Triangle* triangles,
                                              const Vec3& origin, BlockSums& out) {
@@ -140,7 +142,7 @@ __attribute__((target("avx2"))) void add_block_avx2(const Vec3* vertices, const 
                                                     const Vec3& origin, BlockSums& out) {
   add_block<4, FourSum>(vertices, triangles, origin, out);
 }
-/// Four lanes as well, but twice the registers.
+/// Four lanes as well, but with twice the registers.
 __attribute__((target("avx2,avx512f,avx512vl,avx512dq"))) void add_block_avx512vl(
     const Vec3* vertices, const Triangle* triangles, const Vec3& origin, BlockSums& out) {
   add_block<4, FourSum>(vertices, triangles, origin, out);

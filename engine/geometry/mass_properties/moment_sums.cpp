@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Sums of blocks with the rounding of each addition kept aside.
+/// Sums of blocks with compensation of the rounding of each addition.
 struct CompensatedSums {
   BlockSums high{}, low{};
 
@@ -33,7 +33,7 @@ CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock a
     out.add(block);
   }
   if (whole == count) return out;
-  // The rest is filled up with triangles that are points, whose terms are zeros.
+  // The last block is padded with triangles that are points, whose terms are zero.
   std::array<Triangle, block_triangles> rest;
   const uint32_t any = mesh.triangles[whole][0];
   rest.fill({any, any, any});
@@ -43,11 +43,11 @@ CompensatedSums add_all(const TriangleMesh& mesh, const Vec3& origin, AddBlock a
   return out;
 }
 
-// -- the same with twice the digits ---------------------------------------------------------------
+// -- the same in double-double arithmetic --------------------------------------------------------
 
 using Precise = Triple<DoubleDouble>;
 
-/// Places of a symmetric matrix: xx, yy, zz, xy, yz, zx.
+/// Indices of a symmetric matrix: xx, yy, zz, xy, yz, zx.
 constexpr std::array<std::array<size_t, 2>, 6> entries{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
@@ -83,7 +83,7 @@ SolidMoments moments_about_centre(const MomentSums& sums, const Vec3& origin) {
 }
 
 bool too_rough(const MomentSums& sums, const SolidMoments& moments, const Vec3& origin) {
-  // Each term passes about eight roundings of 1.1e-16 of its size.
+  // Each term has about eight roundings of 1.1e-16 of its size.
   constexpr double rounding = 8 * 1.1e-16, allowed = 1e-14;
   const double offset = (moments.centre - origin).squaredNorm();
   const double trace = 0.5 * moments.inertia.trace() * (moments.volume < 0 ? -1 : 1);

@@ -6,11 +6,12 @@
 namespace tumble {
 namespace {
 
-/// Turns rows and columns p, q of `a` so that a(p, q) becomes zero, and `v` along with it.
+/// Jacobi rotation: rotates rows and columns p, q of `a` so that a(p, q) becomes zero, and `v`
+/// likewise.
 void rotate(Mat3& a, Mat3& v, int p, int q) {
   if (a(p, q) == 0) return;
   const double theta = (a(q, q) - a(p, p)) / (2 * a(p, q));
-  double t = 0;  // tangent of the smaller angle
+  double t = 0;  // tangent of the smaller rotation angle
   if (std::fabs(theta) < 1e150) {
     t = (theta >= 0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
   } else {
@@ -43,7 +44,7 @@ PrincipalAxes principal_axes(const Mat3& inertia) {
   a(0, 1) = a(1, 0);
   a(0, 2) = a(2, 0);
   a(1, 2) = a(2, 1);
-  // Convergence is quadratic; 16 sweeps are far more than ever needed.
+  // Convergence is quadratic; 16 sweeps are far more than needed.
   for (int sweep = 0; sweep < 16; ++sweep) {
     const double off = std::fabs(a(1, 0)) + std::fabs(a(2, 0)) + std::fabs(a(2, 1));
     if (!(off > 0)) break;

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// A feature's vectors; w runs from its corner to the point.
+/// The vectors of a feature; w goes from its corner to the point.
 template <class T>
 struct Frame {
   Triple<T> w, u, v;
@@ -25,8 +25,8 @@ int sign_in_frame(const Vec3& p, const ExactFeature& f, const Expression& expres
   return exact_sign([&](auto number) { return expression(Frame<decltype(number)>(p, f)); });
 }
 
-/// Whether p's projection falls within the feature: edges without, faces with their border.
-/// Features without extent hold nothing.
+/// Whether the projection of p falls within the feature: edges exclude their ends, faces include
+/// their border. Features without extent contain nothing.
 bool projects_into(const Vec3& p, const ExactFeature& f) {
   const auto sign = [&](const auto& expression) { return sign_in_frame(p, f, expression); };
   if (f.dimension == 0) return true;
@@ -50,7 +50,7 @@ bool projects_into(const Vec3& p, const ExactFeature& f) {
   return sign(square) > 0;
 }
 
-/// Whether the line, plane or point of the feature is within `radius` of p.
+/// Whether the line, plane or point that carries the feature is within `radius` of p.
 bool carrier_within(const Vec3& p, double radius, const ExactFeature& f) {
   const auto excess = [&](const auto& k) {
     using T = std::decay_t<decltype(k.w.x)>;
@@ -67,7 +67,8 @@ bool carrier_within(const Vec3& p, double radius, const ExactFeature& f) {
   return sign_in_frame(p, f, excess) <= 0;
 }
 
-/// From the feature's carrier to p, every coordinate rounded once from its exact numerator.
+/// Vector from the line, plane or point of the feature to p; every coordinate is rounded once from
+/// its exact numerator.
 Vec3 offset_from(const Vec3& p, const ExactFeature& f) {
   const Frame<Expansion> k(p, f);
   const auto rounded = [](const Triple<Expansion>& v, const Expansion& divisor) {
@@ -116,7 +117,7 @@ std::vector<ExactFeature> features_of(const OrientedBox& box) {
   std::vector<ExactFeature> out;
   const auto arm = [&](int k, int sign) { return Vec3(sign * box.half_axes.col(k)); };
   for (int dimension = 2; dimension >= 0; --dimension) {
-    // Each corner starts the features that run along those axes on which it is at the low end.
+    // Each corner starts the features that extend along those axes on which it is at the low end.
     for (int low = 0; low < 8; ++low) {
       for (int along = 0; along < 8; ++along) {
         const int axes = (along & 1) + (along >> 1 & 1) + (along >> 2 & 1);

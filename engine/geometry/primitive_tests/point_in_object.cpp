@@ -13,9 +13,10 @@ Vec2 shadow(const Vec3& p) {
   return {p.y(), p.z()};
 }
 
-/// How often the triangle's shadow along X winds around p, moved symbolically: sides that run
-/// upward in z with p on their left count 1, those that run downward with p on their right -1.
-/// Half-open intervals and strict signs give a side the same answer in both its triangles.
+/// Winding number of the triangle's projection along X about p, which is perturbed symbolically:
+/// sides that run upward in z with p on their left count 1, those that run downward with p on their
+/// right -1. Half-open intervals and strict signs give a side the same answer in both of its
+/// triangles.
 int shadow_winding(const Triangle3& t, const Vec3& p) {
   int winding = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -33,8 +34,8 @@ int shadow_winding(const Triangle3& t, const Vec3& p) {
 
 int ray_crossing(const Vec3& p, const Triangle3& t) {
   const int turns = shadow_winding(t, p);
-  // The shadow runs counter-clockwise when the outer side faces +X: the ray leaves there. It meets
-  // the triangle ahead of p when p is on the inner side of the plane.
+  // The projection is counter-clockwise if the outer side faces +X: the ray leaves there. It meets
+  // the triangle ahead of p if p is on the inner side of the plane.
   return turns != 0 && orientation(t[0], t[1], t[2], p) == -turns ? turns : 0;
 }
 

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Largest of direction.(x - p) over the shape.
+/// Greatest value of direction.(x - p) over the shape.
 double reach(const Segment& s, const Vec3& p, const Vec3& direction) {
   return std::max(direction.dot(s.a - p), direction.dot(s.b - p));
 }
@@ -22,7 +22,7 @@ double reach(const OrientedBox& b, const Vec3& p, const Vec3& direction) {
   return direction.dot(b.centre - p) + (direction.transpose() * b.half_axes).cwiseAbs().sum();
 }
 
-/// Largest coordinate, for bounds of rounding.
+/// Largest absolute coordinate, for bounds of rounding.
 double magnitude(const Segment& s) {
   return std::max(s.a.cwiseAbs().maxCoeff(), s.b.cwiseAbs().maxCoeff());
 }
@@ -40,7 +40,7 @@ Vec3 nearest(const Vec3& p, const Triangle3& t) {
   return closest_on_triangle(p, t[0], t[1], t[2]).point;
 }
 
-/// Nearest point of a parallelepiped whose axes are not perpendicular: that of its faces, or p.
+/// Nearest point of a parallelepiped whose axes are not perpendicular: on its faces, or p itself.
 Vec3 nearest_of_faces(const Vec3& p, const OrientedBox& box) {
   const Mat3& h = box.half_axes;
   const Vec3 n0 = h.col(1).cross(h.col(2)), n1 = h.col(2).cross(h.col(0)),
@@ -85,8 +85,8 @@ bool meets(const Sphere& sphere, const Shape& shape) {
   const Vec3& p = sphere.centre;
   const double r = sphere.radius;
   if (!(r >= 0)) return false;
-  // Any point of the shape bounds the distance from above, any plane that keeps the shape off from
-  // below; 64 u of the largest coordinate covers the rounding of either.
+  // Any point of the shape bounds the distance from above, any separating plane from below; 64 u
+  // times the largest coordinate covers the rounding of either.
   const Vec3 apart = p - nearest(p, shape);
   const double distance = apart.norm();
   const double doubt = 64 * Estimate::u * (p.cwiseAbs().maxCoeff() + r + magnitude(shape));
@@ -96,7 +96,7 @@ bool meets(const Sphere& sphere, const Shape& shape) {
   return within(p, r, features_of(shape)) || contains_origin(difference(p, shape));
 }
 
-/// Contact of a sphere with a shape that it meets.
+/// Contact of a sphere with a shape that it touches.
 template <class Shape>
 PrimitiveContact contact_of(const Sphere& sphere, const Shape& shape) {
   const Vec3& p = sphere.centre;
@@ -172,7 +172,7 @@ bool sphere_triangle_intersect(const Vec3& centre, double radius, const Triangle
 std::optional<PrimitiveContact> sphere_triangle_contact(const Sphere& sphere, const Triangle3& t) {
   if (!meets(sphere, t)) return std::nullopt;
   PrimitiveContact out = contact_of(sphere, t);
-  // A centre on the triangle leaves by its outer side.
+  // A sphere centred on the triangle is pushed out on the triangle's outer side.
   const bool centred = out.depth >= sphere.radius;
   if (centred && out.normal.dot((t[1] - t[0]).cross(t[2] - t[0])) > 0) {
     out.normal = -out.normal;

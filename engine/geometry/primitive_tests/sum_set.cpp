@@ -32,11 +32,11 @@ Triple<Estimate> lift(const ExactVector& v) {
   return {one(0), one(1), one(2)};
 }
 
-/// The directions along which edges of the set run. Two sides of one triangle span its plane, the
-/// third side is their difference.
+/// The directions of the edges of the set (a Minkowski sum). Two sides of a triangle span its
+/// plane, the third side is their difference.
 struct Directions {
   std::array<ExactVector, 12> all;
-  std::array<int, 12> owner;  ///< triangle, or -1
+  std::array<int, 12> owner;  ///< index of the triangle, or -1
   std::array<bool, 12> third;
   int count = 0;
 
@@ -46,7 +46,7 @@ struct Directions {
       const auto& [u, v] = set.triangles[size_t(t)];
       push(u, t, false);
       push(v, t, false);
-      // Up to the last bits of three terms; exact() has them all.
+      // Rounded to the last bits of three terms; exact() has all digits.
       ExactVector w = two_term_difference(v.high, u.high);
       w.low += v.low - u.low;
       push(w, t, true);
@@ -57,7 +57,7 @@ struct Directions {
     owner[size_t(count)] = triangle;
     third[size_t(count++)] = is_third;
   }
-  /// Exactly direction k.
+  /// Direction k, exactly.
   template <class T>
   Triple<T> exact(const SumSet& set, int k) const {
     const auto i = size_t(k);
@@ -65,13 +65,14 @@ struct Directions {
     const auto& [u, v] = set.triangles[size_t(owner[i])];
     return lift<T>(v) - lift<T>(u);
   }
-  /// Whether the cross product of i and j repeats that of a triangle's first two sides.
+  /// Whether the cross product of i and j repeats that of the first two sides of a triangle.
   bool repeats(int i, int j) const {
     return owner[size_t(i)] >= 0 && owner[size_t(i)] == owner[size_t(j)] && third[size_t(j)];
   }
 };
 
-/// By how much (times |axis|) the axis keeps the set from the origin; positive: it separates.
+/// Distance (times |axis|) by which the axis separates the set from the origin; positive: it
+/// separates.
 template <class T>
 T separation(const SumSet& set, const Triple<T>& axis) {
   T low = axis.dot(exact_offset<T>(set)), high = low;
@@ -118,7 +119,7 @@ bool is_zero(const Triple<Expansion>& v) {
   return v.x.sign() == 0 && v.y.sign() == 0 && v.z.sign() == 0;
 }
 
-/// Whether direction i x j separates, exactly.
+/// Whether direction i x j separates, decided exactly.
 bool separates(const SumSet& set, const Directions& d, int i, int j) {
   const auto at = [&](auto number) {
     using T = decltype(number);
@@ -127,8 +128,8 @@ bool separates(const SumSet& set, const Directions& d, int i, int j) {
   return exact_sign(at) > 0;
 }
 
-/// The answer when no cross product separates: yes for a set with volume; one that is flat, a line
-/// or a point needs the axes within it.
+/// The answer if no cross product separates: yes for a set with volume; a flat set, segment or
+/// point also needs the axes within its plane or line.
 bool contains_origin_flat(const SumSet& set, const Directions& d) {
   using Vector = Triple<Expansion>;
   std::array<Vector, 12> directions;
@@ -155,7 +156,7 @@ bool contains_origin_flat(const SumSet& set, const Directions& d) {
   return true;
 }
 
-/// a x b to the last digits also where the two are nearly parallel.
+/// a x b with full accuracy, even if the two are nearly parallel.
 Vec3 accurate_cross(const ExactVector& a, const ExactVector& b) {
   const Vec3 plain = a.high.cross(b.high);
   if (plain.squaredNorm() > 1e-6 * a.high.squaredNorm() * b.high.squaredNorm()) return plain;
@@ -171,7 +172,7 @@ Vec3 accurate_cross(const ExactVector& a, const ExactVector& b) {
   return out;
 }
 
-/// What the offset of the set takes twice from one of the two.
+/// The two points of operand a or b whose sum enters twice the offset of the set.
 std::array<Vec3, 2>& twice(SumSet& set, Part part) {
   return part == Part::a ? set.twice_a : set.twice_b;
 }
@@ -223,14 +224,14 @@ bool contains_origin(const SumSet& set) {
                                 .cwiseMax((set.twice_a[1] - set.twice_b[1]).cwiseAbs());
   double size = 2 * offset_parts.maxCoeff();
   for (size_t k = 0; k < size_t(d.count); ++k) {
-    // A third side has the rounding of the two it comes from.
+    // A third side has the rounding errors of the two from which it is computed.
     length[k] = d.third[k] ? length[k - 1] + length[k - 2] : largest(d.all[k]);
     size += length[k];
   }
 
-  // First all axes in doubles. Their error is below 128 u |i| |j| size (maximum norms): two terms
-  // to one, 2 u each; cross product, 4 u; dot product, 5 u; the sum of up to twelve terms, 12 u;
-  // every factor of three coordinates counted.
+  // First all axes in double precision. Their error is below 128 u |i| |j| size (maximum norms):
+  // rounding two terms to one, 2 u each; cross product, 4 u; dot product, 5 u; the sum of up to
+  // twelve terms, 12 u; each factor counted for three coordinates.
   constexpr double bound = 256 * Estimate::u;
   std::array<std::array<int8_t, 2>, 66> unsure;
   size_t unsure_count = 0;
@@ -285,7 +286,7 @@ std::vector<Penetration> penetrations(const SumSet& set) {
   }
   std::erase_if(all, [&](const Penetration& p) { return 2 * p.depth > least + 1e-14 * size; });
   if (!all.empty()) return all;
-  // A line or a point: any normal across it.
+  // A segment or point: any perpendicular normal.
   Penetration any;
   for (size_t k = 0; k < size_t(d.count); ++k) {
     Vec3 other;

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr double level = 1e-13;  ///< corners within this part of the size are equally far
+constexpr double level = 1e-13;  ///< corners within this share of the size count as equally far
 
 template <size_t N>
 SupportFace furthest(const std::array<Vec3, N>& corners, const Vec3& direction) {
@@ -26,7 +26,7 @@ SupportFace furthest(const std::array<Vec3, N>& corners, const Vec3& direction) 
   return out;
 }
 
-/// Nearest point of a face, as one or two triangles that may have no area.
+/// Nearest point of a face, given as one or two triangles that may have no area.
 Vec3 nearest_on(const SupportFace& f, const Vec3& p) {
   const auto corner = [&](int k) { return f.corners[size_t(std::min(k, f.count - 1))]; };
   const TrianglePoint near = closest_on_triangle(p, corner(0), corner(1), corner(2));
@@ -67,7 +67,8 @@ SupportFace support_face(const OrientedBox& box, const Vec3& direction) {
 
 PrimitiveContact contact_between(const SupportFace& a, const SupportFace& b,
                                  const Penetration& penetration) {
-  // The moved face and b touch in one plane: a corner of one lies in the other, or sides cross.
+  // After the shift, the face and b are coplanar: a corner of one lies in the other, or sides
+  // cross.
   const Vec3 shift = penetration.depth * penetration.normal;
   SupportFace moved = a;
   for (Vec3& corner : moved.corners) corner -= shift;

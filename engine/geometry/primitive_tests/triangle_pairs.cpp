@@ -5,9 +5,9 @@
 
 #include <utility>
 
-// Two triangles meet exactly when a side of one meets the other, or, in one plane, when one holds
-// the other. Each part is decided by exact orientations; a projection along a coordinate axis on
-// which a triangle keeps its area keeps every answer within its plane.
+// Two triangles intersect exactly if a side of one intersects the other, or, when coplanar, if one
+// contains the other. Each part is decided by exact orientations. Coplanar cases are projected
+// along a coordinate axis for which the triangle keeps an area, which does not change the answer.
 namespace tumble {
 namespace {
 
@@ -17,7 +17,7 @@ Vec2 drop(const Vec3& p, int axis) {
   return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
 }
 
-/// An axis along which the triangle's shadow has area; -1 when it has no area at all.
+/// A coordinate axis along which the triangle's projection has area; -1 if it has none at all.
 int shadow_axis(const Triangle3& t) {
   for (int axis = 0; axis < 3; ++axis) {
     if (orientation(drop(t[0], axis), drop(t[1], axis), drop(t[2], axis)) != 0) return axis;
@@ -29,7 +29,7 @@ bool between(double x, double a, double b) {
   return (a <= x && x <= b) || (b <= x && x <= a);
 }
 
-/// p on segment a-b, all in the plane.
+/// Whether p is on segment a-b, in the plane.
 bool on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return orientation(a, b, p) == 0 && between(p.x(), a.x(), b.x()) && between(p.y(), a.y(), b.y());
 }
@@ -59,7 +59,8 @@ bool segments_intersect(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
     return true;
   }
   if (orientation(a, b, c, d) != 0) return false;
-  // Coplanar, no end on the other: they can only cross properly, and then a b c has area.
+  // Coplanar, with no end on the other segment: they can only cross properly, and then a b c has
+  // area.
   const int axis = shadow_axis({a, b, c});
   if (axis < 0) return false;
   const Vec2 a2 = drop(a, axis), b2 = drop(b, axis), c2 = drop(c, axis), d2 = drop(d, axis);
@@ -97,7 +98,7 @@ bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle3& t
   }
   if (sp == 0) return holds(flat, drop(p, axis));
   if (sq == 0) return holds(flat, drop(q, axis));
-  // The line p-q passes all three sides on the same hand.
+  // The line p-q passes all three sides with the same orientation.
   const int s0 = orientation(p, q, t[0], t[1]), s1 = orientation(p, q, t[1], t[2]),
             s2 = orientation(p, q, t[2], t[0]);
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
@@ -105,7 +106,7 @@ bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle3& t
 
 namespace {
 
-/// Coplanar triangles and such without area: a side of one meets the other.
+/// For coplanar triangles and those without area: whether a side of one intersects the other.
 bool sides_meet(const Triangle3& a, const Triangle3& b) {
   for (size_t k = 0; k < 3; ++k) {
     if (segment_triangle_intersect(a[k], a[(k + 1) % 3], b)) return true;
@@ -114,7 +115,7 @@ bool sides_meet(const Triangle3& a, const Triangle3& b) {
   return false;
 }
 
-/// On which side of the plane of `t` the corners of `u` lie.
+/// Positions of the corners of `u` relative to the plane of `t`.
 struct Sides {
   std::array<int, 3> s;
 
@@ -125,8 +126,8 @@ struct Sides {
   bool none() const { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
 };
 
-/// The corner that is alone on its closed side of the other triangle's plane, and whether that
-/// side is below. At least one corner is off the plane and not all are on one side.
+/// The corner that is alone on its closed side of the other triangle's plane, and whether that side
+/// is below. At least one corner is off the plane and not all are on one side.
 struct Lead {
   size_t corner = 0;
   bool below = false;
@@ -154,26 +155,27 @@ bool triangles_intersect(const Triangle3& a, const Triangle3& b) {
   if (of_b.apart()) return false;
   const Sides of_a(b, a);
   if (of_a.apart()) return false;
-  // Some corner off the other's plane: that plane exists, so the other has area.
+  // Some corner is off the other's plane: that plane exists, so the other has area.
   if (of_a.none() || of_b.none()) return sides_meet(a, b);
   const Lead lead_a(of_a), lead_b(of_b);
   Triangle3 p = lead_a.first(a), q = lead_b.first(b);
   if (lead_a.below) std::swap(q[1], q[2]);
   if (lead_b.below) std::swap(p[1], p[2]);
-  // On the line common to both planes each covers an interval; they overlap when neither begins
-  // beyond the other's end.
+  // On the common line of both planes each triangle covers an interval; they overlap if neither
+  // begins after the other's end.
   return orientation(p[0], p[1], q[0], q[1]) <= 0 && orientation(p[0], p[2], q[2], q[0]) <= 0;
 }
 
 namespace {
 
-/// Both of `t`'s closed sides of the plane are taken, with corners strictly on each.
+/// Whether there are corners strictly on both sides of the plane.
 bool strictly_both(const std::array<int, 3>& s) {
   const auto has = [&](int sign) { return s[0] == sign || s[1] == sign || s[2] == sign; };
   return has(1) && has(-1);
 }
 
-/// Whether no side of `t` has all of `u` beyond it or on it: t's sides do not part the insides.
+/// Whether no side of `t` has all of `u` on it or beyond it, i.e. no side of t separates the
+/// interiors.
 bool no_side_parts(const Triangle2& t, const Triangle2& u) {
   const int turn = orientation(t[0], t[1], t[2]);
   for (size_t k = 0; k < 3; ++k) {
@@ -184,7 +186,7 @@ bool no_side_parts(const Triangle2& t, const Triangle2& u) {
   return true;
 }
 
-/// Two triangles with area in one plane have an area in common: by the theorem of separating axes
+/// Whether two coplanar triangles with area have an area in common, by the separating axis theorem
 /// for convex polygons.
 bool areas_overlap(const Triangle3& a, const Triangle3& b) {
   const int axis = shadow_axis(a);
@@ -203,7 +205,7 @@ TriangleRelation triangle_relation(const Triangle3& a, const Triangle3& b) {
     return areas_overlap(a, b) ? TriangleRelation::overlapping : TriangleRelation::touching;
   }
   if (!strictly_both(of_a.s) || !strictly_both(of_b.s)) return TriangleRelation::touching;
-  // As in triangles_intersect, but the open intervals on the planes' common line overlap.
+  // As in triangles_intersect, but with open intervals on the common line.
   const Lead lead_a(of_a), lead_b(of_b);
   Triangle3 p = lead_a.first(a), q = lead_b.first(b);
   if (lead_a.below) std::swap(q[1], q[2]);

@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-/// Goes through the faults of one mesh in the order of their kinds.
+/// Checks one mesh for all kinds of faults, in their order.
 class SolidCheck {
  public:
   SolidCheck(const TriangleMesh& mesh, const SolidOptions& options) : options_(options) {
@@ -26,8 +26,8 @@ class SolidCheck {
       const Triangle& c = mesh.triangles[t];
       const bool flat = collinear(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
       if (flat) degenerate_.push_back(t);
-      // A triangle with a repeated corner is no part of the surface; one whose corners lie in line
-      // may well be, between a side and its halves.
+      // A triangle with a repeated corner is not part of the surface; one with collinear corners
+      // may be, between a side and its halves.
       if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
       mesh_.triangles.push_back(c);
       id_.push_back(t);
@@ -59,7 +59,7 @@ class SolidCheck {
   }
 
  private:
-  /// Triangles lower than this part of their longest side are needles [-].
+  /// Triangles whose height is below this share of their longest side are needles [-].
   static constexpr double needle = 1e-6;
 
   SolidFault& add(SolidFaultKind kind, size_t count) {
@@ -155,16 +155,16 @@ class SolidCheck {
     }
   }
 
-  /// Whether one of two neighbours that lie upon each other is a needle: what encloses no volume
-  /// worth the name is no passage of the surface through itself, but a point that was rounded to
-  /// the wrong side of an edge.
+  /// Whether one of two neighbours that lie upon each other is a needle: that is not a
+  /// self-intersection of the surface, but a vertex rounded to the wrong side of an edge, and
+  /// encloses practically no volume.
   bool folded_needle(const TriangleIds& ids) const {
     const Triangle &a = mesh_.triangles[ids.a], &b = mesh_.triangles[ids.b];
     size_t shared = 0;
     for (const uint32_t v : a) shared += v == b[0] || v == b[1] || v == b[2];
     return shared == 2 && (needle_height(a) > 0 || needle_height(b) > 0);
   }
-  /// Height of a triangle that is a needle [m], else 0.
+  /// Height of a triangle that is a needle [m], otherwise 0.
   double needle_height(const Triangle& t) const {
     const double height = triangle_height(mesh_, t);
     double longest = 0;
@@ -263,7 +263,8 @@ class SolidCheck {
         flat.push_back(s.first_triangle);
         continue;
       }
-      // What the others leave outside it: solid (1), empty (0); crossing shells have no one answer.
+      // The winding number that the other shells give to its outside: solid (1) or empty (0);
+      // crossing shells have no unique answer.
       const int outside = crosses[i] ? (s.volume > 0 ? 0 : 1) : nesting.winding[i];
       if (s.volume > 0 && outside > 0) doubled.push_back(s.first_triangle);
       if ((s.volume < 0 && outside <= 0) || (s.volume > 0 && outside < 0)) {
@@ -291,7 +292,7 @@ class SolidCheck {
           fault_text::named("from triangle", f.triangles));
       f.cure = "turn it to make it a hollow, remove it, or use the convex hull";
     }
-    // Flat parts do no harm beside others.
+    // Flat parts are harmless if there are others.
     if (flat.size() == closed && (closed > 0 || mesh_.triangles.empty())) {
       SolidFault& f = add(SolidFaultKind::no_volume, std::max<size_t>(closed, 1));
       f.triangles = original(flat);
@@ -329,7 +330,7 @@ class SolidCheck {
       keys.emplace_back(key, t);
     }
     std::sort(keys.begin(), keys.end());
-    std::vector<TriangleIds> pairs;  // each with the first of its kind
+    std::vector<TriangleIds> pairs;  // each with the first triangle of its kind
     for (size_t i = 1, first = 0; i < keys.size(); ++i) {
       if (keys[i].first != keys[first].first) first = i;
       if (i != first) pairs.push_back({id_[keys[first].second], id_[keys[i].second]});
@@ -363,7 +364,7 @@ class SolidCheck {
 
   SolidOptions options_;
   TriangleMesh mesh_;         // without triangles that repeat a corner
-  std::vector<uint32_t> id_;  // of its triangles in the mesh as given
+  std::vector<uint32_t> id_;  // numbers of its triangles in the given mesh
   std::vector<uint32_t> degenerate_;
   MeshTopology topology_;
   std::vector<uint32_t> part_;

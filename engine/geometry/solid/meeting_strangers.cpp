@@ -10,11 +10,11 @@
 namespace tumble {
 namespace {
 
-/// Fans of more triangles get a tree.
+/// Fans with more triangles than this get a tree of their own.
 constexpr uint32_t own_tree_fan = 256;
 
-/// Some triangles of a mesh with a tree of hulls: wedges that only meet in their tips are told
-/// apart.
+/// Some triangles of a mesh with a tree of hulls, which separates wedges that only meet in their
+/// tips.
 class Group {
  public:
   Group(const TriangleMesh& mesh, std::vector<uint32_t> triangles) : ids_(std::move(triangles)) {
@@ -57,7 +57,8 @@ class Group {
   std::unique_ptr<HullTree> tree_;
 };
 
-/// Triangles by the vertex of theirs in which most meet, when many do; the rest together.
+/// Groups triangles by that vertex of theirs where most triangles meet, if these are many; the rest
+/// form one group.
 std::vector<Group> groups(const TriangleMesh& mesh, const std::vector<uint32_t>& fan) {
   std::map<uint32_t, std::vector<uint32_t>> members;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {

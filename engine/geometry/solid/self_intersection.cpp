@@ -11,13 +11,13 @@
 namespace tumble {
 namespace {
 
-/// Twice the area of a triangle's shadow along axis k, exactly signed.
+/// Exact sign of twice the area of a triangle's projection along axis k.
 int shadow_turn(const Vec3& a, const Vec3& b, const Vec3& c, int k) {
   const auto flat = [k](const Vec3& p) { return Vec2(p[(k + 1) % 3], p[(k + 2) % 3]); };
   return orientation(flat(a), flat(b), flat(c));
 }
 
-/// Two triangles of one plane face the same way.
+/// Whether two coplanar triangles face the same way.
 bool face_alike(const Triangle3& a, const Triangle3& b) {
   for (int k = 0; k < 3; ++k) {
     const int turn = shadow_turn(a[0], a[1], a[2], k);
@@ -26,7 +26,7 @@ bool face_alike(const Triangle3& a, const Triangle3& b) {
   return false;
 }
 
-/// Finds the clashes of one mesh whose equal vertices have equal numbers.
+/// Finds the self-intersections of one mesh in which equal vertices have equal numbers.
 class ClashFinder {
  public:
   ClashFinder(const TriangleMesh& mesh, size_t star_limit) : mesh_(mesh), star_limit_(star_limit) {}
@@ -76,7 +76,7 @@ class ClashFinder {
     found_.push_back({ids, relation, alike});
   }
 
-  /// The triangles around one vertex; false when there were too many pairs.
+  /// Tests the triangles around one vertex; false if there were too many pairs.
   bool star(std::vector<StarArc>& arcs, uint32_t here) {
     std::sort(arcs.begin(), arcs.end(), [](const StarArc& a, const StarArc& b) {
       return a.low.x() != b.low.x() ? a.low.x() < b.low.x() : a.triangle < b.triangle;
@@ -116,7 +116,7 @@ class ClashFinder {
       lowest = std::min(lowest, v);
       if (v != here) other = v;
     }
-    if (lowest != here) return;  // looked at from that vertex
+    if (lowest != here) return;  // tested at that vertex
     const TriangleIds ids{a, b};
     if (shared == 3) return add(ids, TriangleRelation::overlapping);
     const auto apex = [&](const Triangle& t) {
@@ -131,8 +131,8 @@ class ClashFinder {
       }
       return;
     }
-    // Beyond the common corner: the ray from it through a common point leaves one of the two within
-    // the other.
+    // Beyond the common corner: the ray from it through a common point leaves one of the triangles
+    // within the other.
     const auto crosses = [&](const Triangle& t, uint32_t other_triangle) {
       const auto corner = size_t(std::find(t.begin(), t.end(), here) - t.begin());
       return segment_triangle_intersect(mesh_.vertices[t[(corner + 1) % 3]],

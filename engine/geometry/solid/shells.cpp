@@ -13,10 +13,10 @@
 namespace tumble {
 namespace {
 
-/// Shell and how often it winds around a point; only those that do, ascending.
+/// Winding numbers by shell; only those that are not 0, ascending.
 using Windings = std::map<uint32_t, int>;
 
-/// Winding numbers of all closed shells but one's own.
+/// Winding numbers of all closed shells except the point's own.
 class ShellWindings {
  public:
   ShellWindings(const TriangleMesh& mesh, const std::vector<uint32_t>& part,
@@ -26,7 +26,7 @@ class ShellWindings {
         tree_(std::make_shared<const TriangleMesh>(mesh)),
         off_(1e-9 * tree_.bounds().extent().maxCoeff()) {}
 
-  /// Nothing when p lies on another shell than `own`, or, for a rounded point, near one.
+  /// Empty if p lies on another shell than `own` or, for a rounded point, near one.
   std::optional<Windings> at(const Vec3& p, uint32_t own, bool rounded) {
     if (rounded) {
       found_.clear();
@@ -52,7 +52,8 @@ class ShellWindings {
     return out;
   }
 
-  /// Corners, midpoints of sides and the middle of triangle t, until `take` says enough.
+  /// Passes corners, midpoints of sides and the centroid of triangle t to `take` until it returns
+  /// true.
   template <class Take>
   void samples(uint32_t t, bool midpoints, const Take& take) const {
     const Triangle3 c = corners(tree_.mesh(), t);
@@ -115,7 +116,8 @@ ShellNesting nest_shells(const TriangleMesh& mesh, const std::vector<uint32_t>& 
   if (shells.size() < 2) return out;
   ShellWindings windings(mesh, part, shells);
 
-  // Where the first free point of each shell lies. Without contact one corner is as good as any.
+  // Winding numbers at the first point of each shell that is on no other shell. Without contacts
+  // any corner will do.
   std::vector<uint8_t> known(shells.size(), 0);
   std::vector<Windings> around(shells.size());
   for (const bool midpoints : {false, true}) {
@@ -135,7 +137,7 @@ ShellNesting nest_shells(const TriangleMesh& mesh, const std::vector<uint32_t>& 
     out.depth[s] = uint32_t(around[s].size());
   }
 
-  // Shells that touch and do not cross have no corner on the other side of each other.
+  // Shells that touch without crossing have no corner on the other side of each other.
   for (const TriangleIds& ids : touching) {
     bool crossing = false;
     for (const auto& [t, u] : {std::pair(ids.a, ids.b), std::pair(ids.b, ids.a)}) {

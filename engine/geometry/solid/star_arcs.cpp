@@ -8,8 +8,8 @@
 namespace tumble {
 namespace {
 
-/// Half-planes that begin at the line through two points, one through each apex, in the order of
-/// their angles about it from that of the first apex. Exact.
+/// Half-planes bounded by the line through two points, one through each apex, ordered exactly by
+/// their angles about the line from the half-plane of the first apex.
 class AngleOrder {
  public:
   AngleOrder(const Vec3& p, const Vec3& q, const Vec3& first) : p_(p), q_(q), first_(first) {}
@@ -21,7 +21,7 @@ class AngleOrder {
   }
 
  private:
-  /// 0: the first half-plane; 1: less than half a turn on; 2: half a turn; 3: more.
+  /// 0: the first half-plane; 1: less than half a turn further; 2: half a turn; 3: more.
   int part(const Vec3& a) const {
     const int side = orientation(p_, q_, first_, a);
     if (side != 0) return side > 0 ? 1 : 3;
@@ -37,8 +37,8 @@ class ArcTree {
     build(0, uint32_t(arcs.size()));
   }
 
-  /// Calls visit(a, b) for pairs of arcs whose boxes meet and whose triangles share no other vertex
-  /// until it returns false.
+  /// Calls visit(a, b) for pairs of arcs whose boxes overlap and whose triangles share no other
+  /// vertex, until it returns false.
   template <class Visit>
   bool each(const Visit& visit) const {
     std::vector<TriangleIds> stack{{0, 0}};
@@ -70,9 +70,9 @@ class ArcTree {
 
   struct Node {
     StarArc bound;
-    Triangle common;  ///< other vertices that all triangles have, no_index in place of others
+    Triangle common;  ///< other vertices common to all triangles, padded with no_index
     uint32_t first, last;
-    uint32_t second = no_index;  ///< child; the first one is the next node
+    uint32_t second = no_index;  ///< second child; the first one is the next node
     bool leaf() const { return second == no_index; }
     uint32_t size() const { return last - first; }
   };
@@ -85,7 +85,7 @@ class ArcTree {
     return out;
   }
 
-  /// Halves at the median along the longest axis: the depth is that of a balanced tree.
+  /// Splits at the median along the longest axis, so that the tree is balanced.
   void build(uint32_t first, uint32_t last) {
     const auto index = uint32_t(nodes_.size());
     Node node{arcs_[first], others(arcs_[first]), first, last};
@@ -133,17 +133,17 @@ TriangleIds ascending(uint32_t a, uint32_t b) {
 
 /// A triangle at a side of the star.
 struct Page {
-  uint32_t other;  ///< the side's vertex that is not the star's
+  uint32_t other;  ///< the side's other vertex, besides that of the star
   uint32_t apex, triangle;
 };
 
-/// Folded triangles among those of one side.
+/// Finds folded triangles among those of one side.
 bool fold_pages(const TriangleMesh& mesh, uint32_t vertex, std::span<Page> pages, size_t limit,
                 std::vector<TriangleIds>& out) {
   const Vec3 &p = mesh.vertices[vertex], &q = mesh.vertices[pages[0].other];
   if (pages.size() == 2 &&
       !folded_at(p, q, mesh.vertices[pages[0].apex], mesh.vertices[pages[1].apex])) {
-    return true;  // as nearly always
+    return true;  // nearly always
   }
   const AngleOrder less(p, q, mesh.vertices[pages[0].apex]);
   const auto at = [&](const Page& page) -> const Vec3& { return mesh.vertices[page.apex]; };
@@ -152,7 +152,7 @@ bool fold_pages(const TriangleMesh& mesh, uint32_t vertex, std::span<Page> pages
   for (size_t i = 0, first = 0; i < pages.size(); ++i) {
     if (less(at(pages[first]), at(pages[i]))) first = i;
     for (size_t k = first; k < i; ++k) {
-      // The same three corners: once, though they share two sides here.
+      // Triangles with the same three corners are reported once, though they share two sides here.
       if (pages[k].apex == pages[i].apex && pages[i].other > pages[i].apex) continue;
       if (out.size() >= limit) return false;
       out.push_back(ascending(pages[k].triangle, pages[i].triangle));
@@ -167,10 +167,11 @@ StarArc star_arc(const TriangleMesh& mesh, uint32_t triangle, uint8_t corner) {
   const Vec3& p = mesh.corner(triangle, corner);
   Vec3 a = mesh.corner(triangle, (corner + 1) % 3) - p,
        b = mesh.corner(triangle, (corner + 2) % 3) - p;
-  // Scaled before squaring, so that tiny and huge ones have a length.
+  // Scaled before squaring to avoid underflow and overflow.
   a = (a / a.cwiseAbs().maxCoeff()).normalized();
   b = (b / b.cwiseAbs().maxCoeff()).normalized();
-  // An arc rises at most 1 - sqrt(1 - c^2 / 4) <= c^2 / 4 above its chord c; the rest is rounding.
+  // An arc rises at most 1 - sqrt(1 - c^2 / 4) <= c^2 / 4 above its chord c; the rest covers
+  // rounding.
   const double rise = 0.25 * (a - b).squaredNorm() + 1e-12;
   return {a.cwiseMin(b).array() - rise, a.cwiseMax(b).array() + rise, triangle, corner};
 }
@@ -205,8 +206,8 @@ StarPairs large_star_pairs(const TriangleMesh& mesh, uint32_t vertex, std::vecto
 }
 
 bool folded_at(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
-  // Most neighbours clearly lie on two sides of it, flat ones too, which the exact test takes long
-  // over: each rounding is below 1e-15 of the products' size.
+  // Most neighbours are clearly on two sides of it, including flat ones, for which the exact test
+  // is slow: each rounding error is below 1e-15 of the size of the products.
   const Vec3 u = q - p, to_a = a - p, to_b = b - p;
   const double size = u.norm() * to_a.norm() * u.norm() * to_b.norm();
   if (u.cross(to_a).dot(u.cross(to_b)) < -1e-12 * size) return false;

@@ -16,7 +16,7 @@ uint32_t fan_leader(std::vector<uint32_t>& leader, uint32_t i) {
 std::vector<uint32_t> non_manifold_vertices(const TriangleMesh& mesh,
                                             const MeshTopology& topology) {
   std::vector<uint32_t> out;
-  std::vector<std::pair<uint32_t, uint32_t>> spokes;  // edge at the vertex, place of a face there
+  std::vector<std::pair<uint32_t, uint32_t>> spokes;  // edge at the vertex, index of a face there
   std::vector<uint32_t> leader;
   for (uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     const auto faces = topology.faces_of_vertex(v);

@@ -13,9 +13,9 @@ namespace tumble {
 namespace {
 
 constexpr int edge = SparseField::edge;
-/// Of a tetrahedron, over the spacing: the diagonal of a cube.
+/// Longest edge of a tetrahedron over the spacing: the diagonal of a cube [-].
 const double longest_edge = std::sqrt(3.0);
-/// Values, what has been reached, and what isosurface() keeps of its nodes: six bytes each.
+/// Values, flags of what has been reached, and what isosurface() stores per node: six bytes each.
 constexpr size_t nodes_of_brick = size_t{edge} * edge * edge;
 constexpr size_t bytes_of_brick = sizeof(SparseField::Brick) + 6 * nodes_of_brick;
 
@@ -62,7 +62,8 @@ void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(doubl
                               int z) {
   const GridIndex& first = field_.bricks[0].at;
   const double h = field_.spacing;
-  // A surface is no farther from a node than from the one before it and the way between them.
+  // The surface's distance from a node is at most that from the previous node plus the distance
+  // between the two.
   double reach = std::numeric_limits<double>::infinity();
   for (int x = 0; x < nodes_[0];) {
     const Vec3 p = field_.position({edge * first[0] + x, edge * first[1] + y, edge * first[2] + z});
@@ -71,7 +72,7 @@ void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(doubl
     const double d = std::sqrt(near->squared_distance);
     double value = f(d, at({x, y, z}) < 0);
     at({x, y, z}) = value;
-    // The sign stays over what is left beyond the reach of an edge.
+    // The sign cannot change within the remaining distance, reduced by the length of an edge.
     const double left = std::fabs(value) / h - longest_edge;
     const int sure = std::min(nodes_[0] - x - 1, left > 1 ? int(std::min(left, 1e6)) : 0);
     const double step = value < 0 ? h : -h;
@@ -107,7 +108,7 @@ void OutsideGrid::fill_unreached() {
     mark = 1;
     next.push_back(node);
   };
-  // Edges of Kuhn's tetrahedra go from a corner of a cube to one that has more bits.
+  // Edges of Kuhn's tetrahedra go from a corner of a cube to one with a superset of its bits.
   while (!front.empty() && !stop_requested()) {
     for (const auto& [x, y, z] : front)
       for (int c = 1; c < 8; ++c) {
@@ -127,7 +128,7 @@ void OutsideGrid::fill_unreached() {
 
 size_t OutsideGrid::cut_edges() const {
   size_t out = 0;
-  // The last nodes of the room are outside, and so are all that would follow.
+  // The last nodes of the grid are outside, and so are all that would follow.
   for (int z = 0; z + 1 < nodes_[2] && !stop_requested(); ++z)
     for (int y = 0; y + 1 < nodes_[1]; ++y)
       for (int x = 0; x + 1 < nodes_[0]; ++x) {

@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-/// Twice the circumradius of a tetrahedron, with room for rounding [cells].
+/// Twice the circumradius of a tetrahedron, with a margin for rounding [cells].
 constexpr double least_offset = 1.75;
 constexpr size_t measured_points = 4000;
 
@@ -39,7 +39,7 @@ double distance_from(const Hierarchy& surface, const Vec3& p) {
   return near ? std::sqrt(near->squared_distance) : 0;
 }
 
-/// Calls f for corners of a mesh, at most about twice measured_points, and for points of it.
+/// Calls f for vertices of a mesh, at most about 2 measured_points, and for points of its surface.
 template <class F>
 void each_measured_point(const TriangleMesh& mesh, const F& f) {
   const size_t stride = std::max<size_t>(1, mesh.vertices.size() / measured_points);
@@ -51,7 +51,7 @@ void each_measured_point(const TriangleMesh& mesh, const F& f) {
 
 /// The surface of a grid.
 Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
-  // A closed surface has about two triangles for each vertex (Euler).
+  // A closed surface has about two triangles per vertex (Euler).
   const double triangles = 2 * double(grid.cut_edges());
   if (stop_requested()) return stopped_error();
   if (triangles > double(o.max_triangles))
@@ -116,7 +116,8 @@ Result<WrappedMesh> wrap_mesh(const Hierarchy& surface, const WrapOptions& optio
   out.report.gap = 2 * radius;
   out.report.offset = o.offset;
   out.report.cell = o.cell;
-  // The boundary of the outside is at most `radius` from the mesh, the wrap `back` from that.
+  // The boundary of the outside is at most `radius` from the mesh, and the wrap at most `back` from
+  // that.
   out.report.bound = radius + back + least_offset / 2 * o.cell * (back > 0 ? 2 : 1);
   if (stop_requested()) return stopped_error();
   return out;

@@ -13,19 +13,21 @@
 namespace tumble {
 namespace {
 
-/// Joints are closed that are open by no more: of the distances in the scene, and of a metre and a
-/// radian [-]; a few thousand roundings. Likewise velocities.
+/// A joint counts as closed if its error is below this, relative to the distances in the scene, or
+/// to a metre and a radian [-]: a few thousand roundings. Likewise for velocities.
 constexpr double closed = 1e-12;
-/// Newton's method goes on while it gains, to here: where it converges it gets to rounding.
+/// Newton's method continues while it makes progress, down to this error: where it converges, it
+/// reaches rounding.
 constexpr double closed_well = 1e-14;
-/// What is less than this is not told [m, rad, m/s, rad/s].
+/// Smaller displacements are not reported [m, rad, m/s, rad/s].
 constexpr double not_told = 1e-9;
-/// Newton's steps; far from a solution a step is cut to this turn of a body [rad].
+/// Greatest number of Newton steps; far from a solution, a step is limited to this rotation of a
+/// body [rad].
 constexpr int most_steps = 200;
 constexpr double longest_turn = 0.5;
-/// How often a step is halved before there is no way on.
+/// Greatest number of halvings of a step before giving up.
 constexpr int most_halvings = 30;
-/// How often limits are added that were found to be passed.
+/// Greatest number of rounds in which violated limits are added.
 constexpr int most_limit_rounds = 20;
 
 struct BodyStart {
@@ -43,7 +45,7 @@ class Assembly {
     }
   }
 
-  /// False: joints are left open.
+  /// Closes all joints; false if some remain open.
   bool close_all() {
     for (int round = 0; round < most_limit_rounds && !stop_requested(); ++round) {
       renew_rows();
@@ -70,8 +72,8 @@ class Assembly {
     }
   }
 
-  /// After close_all() gave false: a fault for each joint that is open, or, where all are closed,
-  /// one about the limits that are still passed.
+  /// After close_all() returned false: a fault for each joint that is open, or, if all are closed,
+  /// one about the limits that are still violated.
   std::vector<std::pair<std::string, std::string>> faults() const;
   void tell(const World& world, std::vector<std::string>& out) const;
   void put(World& world) const;
@@ -87,7 +89,7 @@ class Assembly {
                          held_.bodies, held_.bodies.size(), Articulation::Drives::none);
   }
 
-  /// Sum of the squares of the errors where the bodies are now.
+  /// Sum of the squared errors at the present poses.
   double square_error() {
     rows_.look(held_.bodies);
     double sum = 0;
@@ -103,7 +105,7 @@ class Assembly {
     }
   }
 
-  /// The step that Newton's method takes from here, no longer than it may be.
+  /// The Newton step from the present poses, with limited length.
   std::vector<DofBlock> newton_step() {
     std::vector<DofBlock> way(held_.bodies.size());
     put_masses(held_.bodies, slots_, way);
@@ -139,7 +141,7 @@ class Assembly {
     return rows_.error() <= closed * size_;
   }
 
-  /// A coordinate beyond a hard limit follows nothing, at the limit: x = 0 y + limit.
+  /// A coordinate beyond a hard limit is fixed at the limit by a coupling x = 0 y + limit.
   bool add_passed_limits() {
     first_passed_ = held_.couplings.size();
     for (uint32_t j = 0; j < held_.joints.size(); ++j) {
@@ -159,8 +161,9 @@ class Assembly {
   JointedBodies held_;
   std::vector<uint32_t> slots_;
   std::vector<BodyStart> start_;
-  double size_ = 1;          ///< [m]
-  size_t first_passed_ = 0;  ///< the couplings from this one on are limits found passed last
+  double size_ = 1;  ///< [m]
+  /// The couplings from this index on are limits added in the last round.
+  size_t first_passed_ = 0;
   Articulation rows_;
 };
 

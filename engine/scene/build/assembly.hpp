@@ -7,13 +7,13 @@
 
 namespace tumble {
 
-/// Moves the bodies of a scene that joints tie, and changes their velocities, so that the joints,
-/// their hard limits and couplings hold: positions by Newton's method, each step of which is the
-/// least in the metric of mass that closes the joints to first order (Articulation::close), halved
-/// until it brings them nearer; velocities by the least change in the same metric. What nothing
-/// moves stays. What moved is told in BuiltScene::assembly. Bodies that fit keep their bits.
-/// Gives what is left open, where there is no such place near: path in the scene and sentence; then
-/// nothing is moved.
+/// Moves the jointed bodies of a scene, and changes their velocities, so that the joints, their
+/// hard limits and couplings are satisfied: positions by Newton's method, where each step is the
+/// smallest in the mass metric that satisfies the linearised constraints (Articulation::close),
+/// halved until the error decreases; velocities by the smallest change in the same metric. Fixed
+/// bodies stay. Moved bodies are reported in BuiltScene::assembly. Bodies that already fit keep
+/// their bits. Returns what remains unsatisfied if no solution is found nearby, as paths in the
+/// scene and messages; nothing is moved then.
 std::vector<std::pair<std::string, std::string>> assemble(BuiltScene& built);
 
 }  // namespace tumble

@@ -17,7 +17,7 @@ struct Maker {
   const FaultSink& sink;
   std::vector<std::string>& warnings;
 
-  /// A description that validate() let through; unknown names give the default.
+  /// For a description that validate() accepted; unknown names give the default.
   Material material(const std::optional<MaterialDescription>& m) const {
     if (!m) return {};
     const auto resolved = resolve_material(*m, scene.materials);
@@ -49,7 +49,7 @@ struct Maker {
     out.mesh = meshes.find(s.mesh);
     return out;
   }
-  /// As it is drawn.
+  /// The mesh as drawn.
   ShapeDef shape(const MeshShapeDescription& s, const std::string& path) const {
     const auto mode = how(s).mode;
     ShapeDef out =
@@ -57,7 +57,7 @@ struct Maker {
     out.mesh = meshes.wrapped(s.mesh, s.wrap, path, sink, warnings);
     return out;
   }
-  /// As the shape says, or else its mesh.
+  /// The mode given by the shape, or else by its mesh.
   MeshModeDescription how(const MeshShapeDescription& s) const {
     const MeshDescription* m = scene.meshes.find(s.mesh);
     return s.how.mode || !m ? s.how : m->how;
@@ -72,7 +72,7 @@ struct Maker {
     if (body.density) out.material.density = *body.density;
     return out;
   }
-  /// A shape of a body; of a mesh those that stand for it. False after a fault.
+  /// Adds a shape of a body, or for a mesh the shapes that approximate it. False after a fault.
   bool add_shapes(const ShapeDescription& s, const std::string& path, const BodyDescription& body,
                   BodyDef& out) const {
     const BodyShapeDef whole = body_shape(s, path, body);
@@ -87,7 +87,7 @@ struct Maker {
       return true;
     }
     const auto mesh = whole.shape.mesh;
-    if (!mesh) return false;  // a fault about it has been given
+    if (!mesh) return false;  // the fault was reported
     if (!d->how.mode && !d->wrap) {
       append_mesh_parts(out.shapes, whole, mesh, *meshes.parts(d->mesh));
       return true;
@@ -103,7 +103,7 @@ struct Maker {
     return true;
   }
 
-  /// A number that stays the same is a course too.
+  /// A constant number also becomes a course.
   static std::shared_ptr<const TimeCourse> course_of(const std::optional<Varying>& number,
                                                      double unit = 1) {
     if (!number) return nullptr;
@@ -119,7 +119,7 @@ struct Maker {
     return out;
   }
 
-  /// Nothing after a fault.
+  /// Empty after a fault.
   std::optional<BodyDef> body(const BodyDescription& d) const {
     BodyDef out;
     out.type = d.type;
@@ -199,7 +199,7 @@ std::vector<BodyDef> body_defs(const SceneDescription& scene, const std::string&
                                const FaultSink& sink, std::vector<std::string>& warnings) {
   const Maker maker{scene, name, meshes, sink, warnings};
   const std::optional<BodyDef> common = maker.body(body);
-  if (!common || !has_all_meshes(*common)) return {};  // a fault about the mesh has been given
+  if (!common || !has_all_meshes(*common)) return {};  // the fault about the mesh was reported
   const auto poses = copy_poses(scene, name, body, warnings);
   if (!poses) {
     sink(poses.error().place, poses.error().message);

@@ -22,7 +22,7 @@
 namespace tumble {
 namespace {
 
-/// Carries a build from part to part; collects faults instead of stopping at the first.
+/// Builds a world part by part; collects faults instead of stopping at the first.
 class Builder {
  public:
   Builder(const SceneDescription& scene, FaultList& faults)
@@ -32,7 +32,7 @@ class Builder {
 
   void fault(std::string path, std::string message) { sink_(std::move(path), std::move(message)); }
 
-  /// A world that keeps what it warns of during the build, and then only passes it on.
+  /// Creates a world whose warnings are collected during the build, and later only passed on.
   void create_world(WorldDef extras, std::shared_ptr<ShapeStore> shapes) {
     extras.settings = scene_.settings;
     extras.log = [caught = caught_, next = extras.log](LogLevel level, std::string_view message) {
@@ -57,14 +57,14 @@ class Builder {
         if (stop_requested()) return;
         if (!built_.world) break;
         std::string copy = def.name;
-        def.pose.q.normalize();  // formulas and angles leave it to a few roundings
+        def.pose.q.normalize();  // formulas and angles give unit quaternions up to rounding
         const auto id = built_.world->create_body(std::move(def));
         if (!id) {
           const std::string which = copy == name ? "" : " (" + copy + ")";
           const std::string& cure = id.error().cure;
           fault("bodies." + name,
                 id.error().message + which + (cure.empty() ? "" : " (" + cure + ")"));
-          break;  // the other copies would say the same
+          break;  // the other copies would have the same fault
         }
         built_.bodies.emplace(std::move(copy), *id);
       }
@@ -136,7 +136,7 @@ class Builder {
     if (defs.size() == order->size()) check_crowds(*order, defs);
   }
 
-  /// Of emitters that there are: apply() comes before.
+  /// Must be called after apply(), since it looks at existing emitters.
   void check_emitter_overlaps() {
     if (!built_.world) return;
     for (const EmitterOverlap& o : emitter_overlaps(built_))
@@ -277,7 +277,7 @@ class Builder {
     }
   }
 
-  /// Of what is there by now.
+  /// Sets up the microscope on bodies that exist by now.
   void add_microscope() {
     if (!scene_.microscope || !built_.world) return;
     const MicroscopeDescription& d = *scene_.microscope;
@@ -293,14 +293,14 @@ class Builder {
     setup.velocity = {d.velocity_a, d.velocity_b};
     setup.angular_velocity = {d.angular_velocity_a, d.angular_velocity_b};
     const std::string refusal = microscope_refusal(*built_.world->frame(), setup);
-    // A world has contacts from its first tick on: what asks it may have an answer later.
+    // Contacts exist from the first tick on: an algorithm that asks the world may answer later.
     const MicroscopeEntry* entry = find_microscope(d.algorithm);
     const bool asks = entry && entry->of_world();
     if (!refusal.empty() && !asks) return fault("microscope", refusal);
     built_.microscope = setup;
   }
 
-  /// What is queued takes effect, so that forces see the bodies and the first frame everything.
+  /// Applies queued commands, so that forces find the bodies and the first frame is complete.
   void apply() {
     if (!built_.world) return;
     if (auto ok = built_.world->apply_commands(); !ok) fault("bodies", ok.error().text());
@@ -316,7 +316,7 @@ class Builder {
   }
 
  private:
-  /// A body that validate() knows may still be a copy with "present": false.
+  /// A body that validate() knows may be a copy with "present": false.
   bool find_body(const std::string& name, std::string path, BodyId& id) {
     const auto found = built_.bodies.find(name);
     if (found == built_.bodies.end())
@@ -326,12 +326,12 @@ class Builder {
     return found != built_.bodies.end();
   }
 
-  /// The body that an emitter makes copies of: the first, or the one that is named.
+  /// The body that an emitter copies: the first one, or the one named.
   std::shared_ptr<const BodyDef> template_of(const EmitterDescription& d) {
     const std::string base = d.body.substr(0, d.body.find('['));
     const BodyDescription* body = scene_.bodies.find(base);
     if (!body) return nullptr;
-    std::vector<std::string> known_warnings;  // of its copies, which were given before
+    std::vector<std::string> known_warnings;  // of its copies, which were reported before
     for (BodyDef& def : body_defs(scene_, base, *body, *meshes_, sink_, known_warnings)) {
       if (d.body != base && def.name != d.body) continue;
       def.type = BodyType::dynamic;
@@ -342,7 +342,8 @@ class Builder {
     return nullptr;
   }
 
-  /// More than a scene may have at once, events included, is said before the run.
+  /// Reports before the run if there may be more particles at once than a scene allows, events
+  /// included.
   void check_crowds(const std::vector<std::string>& names, const std::vector<EmitterDef>& defs) {
     std::vector<NamedEmitter> emitters;
     for (size_t i = 0; i < defs.size(); ++i)
@@ -375,7 +376,7 @@ class Builder {
   const SceneDescription& scene_;
   FaultSink sink_;
   std::shared_ptr<const SceneMeshes> meshes_;
-  double particle_budget_ = max_particles;  ///< how many more there may be
+  double particle_budget_ = max_particles;  ///< how many more particles there may be
   BuiltScene built_;
   std::vector<WaitingWeave> weaves_;
   std::shared_ptr<Caught> caught_ = std::make_shared<Caught>();
@@ -400,7 +401,7 @@ Result<BuiltScene> build_world(const SceneDescription& scene, WorldDef extras,
   builder.add_bodies();
   builder.apply();
   if (stop_requested()) return stopped_error();
-  // Before whatever is pinned or fitted to bodies: assembly moves them.
+  // Before anything is pinned or fitted to bodies, since assembly moves them.
   if (found.empty()) {
     builder.add_joints();
     builder.add_couplings();

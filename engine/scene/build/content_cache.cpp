@@ -24,7 +24,7 @@ fs::path ContentCache::file_of(std::span<const std::byte> key) const {
 std::optional<Bytes> ContentCache::read(std::span<const std::byte> key) const {
   if (folder_.empty()) return std::nullopt;
   const fs::path file = file_of(key);
-  // A folder or pipe of that name is no entry: reading it would fail, or wait for ever.
+  // A folder or pipe of that name is not an entry: reading it would fail or block.
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
@@ -38,7 +38,7 @@ std::optional<Bytes> ContentCache::read(std::span<const std::byte> key) const {
   return Bytes(content.begin(), content.end());
 }
 
-/// To a name of this process's own, then renamed: whoever reads sees all of it or nothing.
+/// Written under a name unique to this process, then renamed: readers see the whole file or none.
 void ContentCache::write(std::span<const std::byte> key, std::span<const std::byte> content) const {
   if (folder_.empty()) return;
   ByteWriter whole;

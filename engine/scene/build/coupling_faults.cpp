@@ -13,9 +13,10 @@
 namespace tumble {
 namespace {
 
-/// Ratios and offsets that differ by so much, relative to what they are made of, are the same [-].
+/// Ratios and offsets that differ by less, relative to the numbers they are computed from, count as
+/// equal [-].
 constexpr double same_number = 1e-9;
-/// When the rates of motors that follow courses are compared [s].
+/// Times at which the rates of motors with courses are compared [s].
 constexpr double looks_at_motors[] = {0, 0.1, 0.37, 1, 3, 10};
 
 /// A coordinate of a joint.
@@ -27,9 +28,9 @@ struct Place {
 /// x = ratio y + offset.
 struct Line {
   double ratio = 1, offset = 0;
-  double size = 0;  ///< of the numbers that the offset is a sum of
+  double size = 0;  ///< magnitude of the numbers whose sum is the offset
 
-  /// With y = of(z).
+  /// The composition with y = of(z).
   Line after(const Line& of) const {
     return {ratio * of.ratio, ratio * of.offset + offset,
             std::fabs(ratio) * (of.size + std::fabs(of.offset)) + size + std::fabs(offset)};
@@ -42,7 +43,8 @@ bool same_rate(double a, double b) {
   return std::fabs(a - b) <= same_number * (1 + std::fabs(a) + std::fabs(b));
 }
 
-/// Every coordinate follows one other at most: chains, which end or run into a circle.
+/// Every coordinate follows at most one other, so couplings form chains, which end or run into a
+/// cycle.
 class Couplings {
  public:
   explicit Couplings(const BuiltScene& built) {
@@ -96,7 +98,7 @@ class Couplings {
     out_.emplace_back("joints." + name_of(p), std::move(sentence));
   }
 
-  /// Of a circle its first place tells.
+  /// Reports a cycle, at its first coordinate.
   void look_at_circle(const Place& first) {
     Line line{1, 0};
     std::string round;
@@ -127,7 +129,7 @@ class Couplings {
                                round, added));
   }
 
-  /// Where a chain ends, or its circle's first place.
+  /// The end of a chain, or the first coordinate of its cycle, with the ratio to it.
   std::pair<Place, double> leader_of(const Place& of) const {
     Place p = of;
     double ratio = 1;
@@ -170,7 +172,7 @@ class Couplings {
     }
   }
 
-  static constexpr size_t most_named = 6;  ///< of a circle
+  static constexpr size_t most_named = 6;  ///< coordinates of a cycle that are named
   std::map<uint32_t, Named> joints_;
   std::map<Place, Follow> follows_;
   std::map<Place, std::pair<Place, double>> motors_;  ///< one for each leader, with its ratio

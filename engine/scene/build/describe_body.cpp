@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// Sets `value` where `now` is another than `before`, and is given.
+/// Sets `value` to `now` if that differs from `before` and is given.
 template <class T, class U>
 void take_over(const T& before, const T& now, U& value) {
   if (before != now) value = U(now);
@@ -17,7 +17,7 @@ void take_over(const std::optional<T>& before, const std::optional<T>& now, U& v
   if (now && before != now) value = U(*now);
 }
 
-/// The double that people mean by this float: 0.6 for 0.6f.
+/// The double with the shortest decimal form of a float: 0.6 for 0.6f.
 double shortest(float value) {
   return std::stod(fmt::format("{}", value));
 }

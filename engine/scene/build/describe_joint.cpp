@@ -7,7 +7,7 @@ namespace {
 
 constexpr double in_degrees = 180 / std::numbers::pi;
 
-/// A bound in the member of its unit; what is without bound is not given.
+/// Sets the member of the bound's unit; an infinite bound is not given.
 void describe_bound(double value, bool angle, std::optional<double>& length,
                     std::optional<double>& degrees) {
   if (!std::isfinite(value)) return;

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Puts a value that changes nothing among the warnings.
+/// Adds a warning for a value that has no effect.
 class Idle {
  public:
   explicit Idle(std::vector<std::string>& out) : out_(out) {}
@@ -46,7 +46,7 @@ void look_at_look(const ParticleLookDescription& d, const std::string& path, Idl
        "it is of the style smoke (leave it out)");
 }
 
-/// Whether a shape has a way out of its own; of the others that is the axis.
+/// Whether a shape has outward normals; for the others, outward means the axis.
 bool has_outward(const std::optional<EmissionShapeDescription>& shape) {
   if (!shape) return false;
   if (const auto* box = std::get_if<BoxEmission>(&shape->kind)) return box->surface;
@@ -70,7 +70,8 @@ void look_at_emitter(const SceneDescription& scene, const std::string& name,
        path + ".spread_deg", "the speed is 0 (give a speed)");
 }
 
-/// Lists that are given, but empty: the description does not tell them from those left out.
+/// Looks for lists that are given but empty, which the description cannot distinguish from those
+/// left out.
 void look_at_empty_lists(const SceneDescription& scene, Idle& idle) {
   const JsonNode* tree = scene.source ? scene.source->tree.get() : nullptr;
   const JsonNode* emitters = tree ? tree->find("emitters") : nullptr;

@@ -25,7 +25,7 @@ Error missing(const char* kind, const std::string& name) {
   return {ErrorCode::not_found, std::string("there is no ") + kind + " '" + name + "'", {}, {}};
 }
 
-/// Emitters that its events name; what is not there has been found before.
+/// Emitters that its events name; missing ones were reported before.
 std::vector<std::string> called_by(const SceneDescription& scene, const std::string& name) {
   std::vector<std::string> out;
   for (const EmitterEventDescription& e : scene.emitters.find(name)->events)
@@ -39,7 +39,7 @@ std::vector<Vec3f> linear(const std::vector<Colour>& colours) {
   return out;
 }
 
-/// Place, time and number.
+/// Sets place, times and numbers.
 void fill_schedule(EmitterDef& out, const EmitterDescription& d) {
   out.pose = d.placement.pose();
   out.rate = d.rate;
@@ -68,7 +68,7 @@ EmissionCourse course_of(const std::vector<EmissionKeyDescription>& keys) {
   return out;
 }
 
-/// What each one is like; of a system `system` unless the emitter says otherwise.
+/// Sets the properties of what it emits; those not given are the values of `system`.
 void fill_values(EmitterDef& out, const EmitterDescription& d,
                  const ParticleSystemDescription* system) {
   out.outward = d.direction == EmissionDirection::outward;

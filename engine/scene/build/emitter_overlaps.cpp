@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// What comes from an emitter, as far as it pushes others.
+/// Kind of what an emitter emits, with regard to collisions.
 enum class Emitted : uint8_t { nothing, fluid, particles, fast_particles, bodies };
 
 Emitted emitted_by(const World& world, const EmitterDef& def) {
@@ -24,14 +24,15 @@ Emitted emitted_by(const World& world, const EmitterDef& def) {
   return system->fast ? Emitted::fast_particles : Emitted::particles;
 }
 
-/// Whether neither can be meant to come out of the other, as sparks may out of bodies.
+/// Whether the two collide and neither is meant to come out of the other, as sparks may out of
+/// bodies.
 bool push_each_other(Emitted a, Emitted b) {
   if (a == b) return a != Emitted::nothing && a != Emitted::fast_particles;
   return std::min(a, b) == Emitted::particles && std::max(a, b) == Emitted::fast_particles;
 }
 
-/// Where an emitter puts things, a little thick, in its own frame. Sides are drawn in by rounding,
-/// so that regions side by side do not overlap.
+/// The region where an emitter emits, slightly thickened, in its own frame. Its sides are moved
+/// inwards by rounding, so that adjacent regions do not overlap.
 struct Region {
   double thick;  ///< [m]
 
@@ -68,10 +69,10 @@ struct Region {
   Placed operator()(const MeshVolumeEmission&) const { return std::nullopt; }
 };
 
-/// Of more bursts than that only when the first and the last come is looked at.
+/// With more bursts than this, only the time from the first to the last is considered.
 constexpr int most_bursts = 1000;
 
-/// When something comes of an emitter, from and to [s]; a burst is a moment.
+/// The intervals in which an emitter emits [s]; a burst is an instant.
 std::vector<std::pair<double, double>> times_of(const EmitterDef& def) {
   std::vector<std::pair<double, double>> out;
   if (def.rate > 0)
@@ -84,7 +85,7 @@ std::vector<std::pair<double, double>> times_of(const EmitterDef& def) {
   return out;
 }
 
-/// An emitter that may be in the way of others.
+/// An emitter with its position and kind.
 struct PlacedEmitter {
   std::string name;
   const EmitterDef* def;
@@ -98,7 +99,7 @@ std::optional<PlacedEmitter> placed(const World& world, const std::string& name,
                                     const EmitterDef& def) {
   PlacedEmitter out{name, &def, emitted_by(world, def), nullptr, def.pose, times_of(def)};
   if (out.emitted == Emitted::nothing || out.times.empty()) return std::nullopt;
-  // Half a radius: two points a whole one apart put their balls deep into each other.
+  // Half a radius: points a whole radius apart already give deep overlaps of the balls.
   double thick = 0.5 * def.radius.mean;
   if (def.body) {
     if (def.body->shapes.empty()) return std::nullopt;

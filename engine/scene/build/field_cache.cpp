@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t field_format = 1;  ///< of the files, not of the method
+constexpr uint32_t field_format = 1;  ///< version of the file format, not of the method
 constexpr std::string_view field_section = "distance field";
 
 }  // namespace

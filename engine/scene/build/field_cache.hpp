@@ -11,8 +11,8 @@ class FieldCache {
   explicit FieldCache(std::filesystem::path folder) : cache_(std::move(folder), ".field") {}
 
   const std::filesystem::path& folder() const { return cache_.folder(); }
-  /// The field of a mesh with cells of this side: from the cache, or made and put there. Errors are
-  /// those of make_distance_field(). The field is the same with any crew or none.
+  /// The field of a mesh with cells of this edge [m], from the cache or computed and stored. Errors
+  /// are those of make_distance_field(). The field does not depend on the crew.
   Result<std::shared_ptr<const DistanceField>> field(
       const std::shared_ptr<const TriangleMesh>& mesh, double cell, Crew* crew = nullptr) const;
 

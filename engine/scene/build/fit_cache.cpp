@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t fit_format = 2;  ///< of the files, not of the method
+constexpr uint32_t fit_format = 2;  ///< version of the file format, not of the method
 constexpr std::string_view fit_section = "fitted primitives";
 
 void write_fit(ByteWriter& out, const FittedPrimitive& fit) {
@@ -18,7 +18,7 @@ void write_fit(ByteWriter& out, const FittedPrimitive& fit) {
     out.value(x);
 }
 
-/// False where it is none.
+/// False if the data are invalid.
 bool read_fit(ByteReader& in, FittedPrimitive& fit) {
   in.value(fit.shape.type);
   for (double* x : {&fit.shape.radius, &fit.shape.height, &fit.shape.top_radius}) in.value(*x);

@@ -11,7 +11,7 @@ class FitCache {
   explicit FitCache(std::filesystem::path folder) : cache_(std::move(folder), ".fit") {}
 
   const std::filesystem::path& folder() const { return cache_.folder(); }
-  /// The primitives of a mesh, the best first: from the cache, or made and put there. Errors are
+  /// The primitives fitted to a mesh, best first, from the cache or computed and stored. Errors are
   /// those of fit_primitives().
   Result<std::vector<FittedPrimitive>> fits(const std::shared_ptr<const TriangleMesh>& mesh) const;
   /// The first of fits().

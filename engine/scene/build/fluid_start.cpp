@@ -14,7 +14,8 @@
 namespace tumble {
 namespace {
 
-/// Of the spacing: particles of a lattice begin half of it from the walls [-].
+/// Least initial distance from walls over the spacing [-]; the particles of a lattice start at half
+/// a spacing.
 constexpr double start_clearance = 0.25;
 
 bool falls(const World& world, const ParticleSystemDef& def) {
@@ -31,7 +32,7 @@ bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
   for (const ParticleDef& p : def.particles) fluid.include(p.x);
   for (const FluidWall& w : walls) {
     const Aabb box = w.shape->bounds(w.pose);
-    // Beside it as seen from above, and not wholly over it.
+    // Beside the fluid, in plan view, and not entirely above it.
     if (box.min.x() <= fluid.max.x() && box.max.x() >= fluid.min.x() &&
         box.min.z() <= fluid.max.z() && box.max.z() >= fluid.min.z() &&
         box.min.y() <= fluid.max.y())
@@ -40,7 +41,7 @@ bool contained(const ParticleSystemDef& def, std::span<const FluidWall> walls) {
   return false;
 }
 
-/// A fluid has one kernel, which goes by the mean volume of its particles.
+/// A fluid has one kernel, whose width is determined by the mean volume of its particles.
 Status one_spacing(const ParticleSystemDef& def) {
   const auto [finest, coarsest] =
       std::ranges::minmax(def.particles, {}, [](const ParticleDef& p) { return p.mass; });

@@ -11,7 +11,8 @@
 namespace tumble {
 namespace {
 
-/// z along the axis, x along the second one as far as that is at right angles to it.
+/// The frame with z along the axis, and x along the component of the second axis perpendicular to
+/// it.
 Quat frame_of(const Vec3& axis, const std::optional<Vec3>& second) {
   Mat3 R;
   R.col(2) = axis.normalized();
@@ -36,7 +37,7 @@ Result<BodyId> body_named(const std::string& name, int i, const BuiltScene& buil
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The one of two units that is given.
+/// The one given, of a length and an angle in degrees.
 std::optional<double> given(const std::optional<double>& length,
                             const std::optional<double>& degrees) {
   if (degrees) return degree * *degrees;
@@ -77,7 +78,7 @@ CoordinateDrive drive_of(const DriveDescription& d) {
   return out;
 }
 
-/// Calls f(coordinate, description) for all of a joint that says something.
+/// Calls f(coordinate, description) for all coordinates of a joint that have a description.
 template <class F>
 void for_coordinates(const JointDescription& d, const F& f) {
   if (!d.drive.empty()) f(size_t{0}, d.drive);
@@ -119,7 +120,7 @@ Result<JointDef> joint_def(const JointDescription& d, int i, const BuiltScene& b
   if (d.start_deg) at_start.q = world.q * axis_angle(Vec3::UnitZ(), degree * *d.start_deg);
   out.frame_b = on_b.inverse() * at_start;
   if (d.axis_on_b) {
-    // Turned there on the shortest way from where it is at the start.
+    // Rotated to there on the shortest way from its orientation at the start.
     const Vec3 from = out.frame_b.direction(Vec3::UnitZ());
     out.frame_b.q = rotation_between(from, d.axis_on_b->normalized()) * out.frame_b.q;
   }
@@ -136,7 +137,7 @@ Error coupling_error(std::string message) {
   return {ErrorCode::not_found, std::move(message), {}, {}};
 }
 
-/// What copy `i` of a joint follows by a coordinate.
+/// The coupling of a coordinate of copy `i` of a joint.
 Result<CoordinateCouple> couple_of(const CoupleDescription& d, int i, JointId own,
                                    JointKind own_kind, size_t own_coordinate,
                                    const BuiltScene& built) {
@@ -172,7 +173,7 @@ Result<std::vector<std::pair<JointId, JointDef>>> couple_joints(const std::strin
   std::optional<Error> error;
   for (int i = 0; i < joint.count && !error; ++i) {
     const auto it = built.joints.find(copy_name(name, joint, i));
-    if (it == built.joints.end()) continue;  // a fault was found in it
+    if (it == built.joints.end()) continue;  // a fault was reported for it
     JointDef def = *built.world->joint(it->second);
     for_coordinates(joint, [&](size_t k, const DriveDescription& d) {
       if (!d.couple || error) return;

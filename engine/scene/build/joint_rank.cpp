@@ -19,7 +19,7 @@ JointRank joint_rank(const BuiltScene& built) {
   Articulation rows({held.joints, held.couplings}, {joints, couplings}, held.block_of, held.bodies,
                     held.bodies.size());
   rows.update(held.bodies, blocks_of(held.bodies, slots));
-  std::map<uint32_t, size_t> dependent;  // by joint
+  std::map<uint32_t, size_t> dependent;  // number of dependent rows by joint
   for (size_t i = 0; i < rows.size(); ++i) {
     const HeldRow& row = rows.held()[i];
     if (row.use == RowUse::armature) continue;

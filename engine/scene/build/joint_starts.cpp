@@ -13,9 +13,9 @@
 namespace tumble {
 namespace {
 
-/// What rounding in a scene's numbers makes: of a value [-], and at least so much [m, rad].
+/// Errors attributed to rounding of the scene's numbers: relative [-], and absolute [m, rad].
 constexpr double value_slack = 1e-4, least_value = 1e-6;
-/// The same of velocities [-] and [m/s, rad/s].
+/// The same for velocities [-] and [m/s, rad/s].
 constexpr double speed_slack = 1e-3, least_speed = 1e-3;
 
 struct StartingJoint {
@@ -23,7 +23,7 @@ struct StartingJoint {
   const JointDef* def = nullptr;
   const JointFrame* now = nullptr;
   JointSides sides;
-  /// Whether all that it ties has the velocity that it begins with: bodies on courses have not.
+  /// Whether the initial velocities of all bodies are known; those of bodies on courses are not.
   bool velocity_known = true;
 
   const JointCoordinate& kind_of(size_t k) const { return entry_of(def->kind).coordinates[k]; }
@@ -37,7 +37,7 @@ struct StartingJoint {
 };
 
 std::string value_with_unit(double value, bool angle) {
-  // What rounding left of nothing is nothing.
+  // Residues of rounding are shown as zero.
   const double shown = std::fabs(value) < least_value ? 0 : value;
   return angle ? fmt::format("{:.6g} deg", shown * 180 / std::numbers::pi)
                : fmt::format("{:.6g} m", shown);
@@ -67,14 +67,14 @@ std::map<uint32_t, StartingJoint> starting_joints(const BuiltScene& built, const
   return out;
 }
 
-/// What the run does about a place that is off.
+/// How the run treats an inconsistent position.
 std::string taken_back(const WorldSettings& settings, bool angle) {
   if (settings.stepper != "event") return "the run takes that back in its first ticks";
   return fmt::format("the run takes that back at {} (event.recovery_speed)",
                      rate_with_unit(settings.event.recovery_speed, angle));
 }
 
-/// Sums over the rows of a joint's parts, of lengths and of angles.
+/// Sums of squares over the rows of a joint's parts, of lengths and of angles.
 struct Off {
   double apart = 0, turned = 0;
 
@@ -89,7 +89,7 @@ struct Off {
   }
 };
 
-/// Where its ends are not where it is to hold them; of rods the length tells.
+/// Reports ends that are not where the joint must hold them; for rods, a wrong length.
 void look_at_ends(const StartingJoint& joint, const WorldSettings& settings, Sentences& sentences) {
   if (joint.def->kind == JointKind::distance) return;
   const Off off(joint, [](const JointRow& row) { return row.error; });
@@ -148,7 +148,7 @@ void look_at_coupling(const StartingJoint& joint, size_t k, const StartingJoint&
         joint.place(k), rate_with_unit(rate, angle), leader.name, rate_with_unit(ahead, angle)));
 }
 
-/// How fast the parts of a joint that are held to each other move apart at the start.
+/// Reports initial velocities with which parts held by a joint would separate.
 void look_at_velocities(const StartingJoint& joint, Sentences& sentences) {
   if (!joint.velocity_known) return;
   const Off off_by(joint, [&](const JointRow& row) { return row_rate(row, joint.sides); });

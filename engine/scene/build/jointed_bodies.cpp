@@ -8,7 +8,7 @@
 namespace tumble {
 
 JointedBodies::JointedBodies(const BuiltScene& built) {
-  std::map<uint32_t, uint32_t> place_of;  // by slot
+  std::map<uint32_t, uint32_t> place_of;  // index of the body, by slot
   const auto place = [&](BodyId id) {
     const RigidBody* body = built.world->body(id);
     if (!body) return no_body;
@@ -24,7 +24,7 @@ JointedBodies::JointedBodies(const BuiltScene& built) {
     return {body == no_body ? frame.x : Vec3(frame.x - bodies[body].centre_body),
             frame.q.normalized()};
   };
-  std::map<uint32_t, uint32_t> joint_of;  // by slot
+  std::map<uint32_t, uint32_t> joint_of;  // index of the joint, by slot
   for (const auto& [name, id] : built.joints) {
     const JointDef* def = built.world->joint(id);
     if (!def) continue;

@@ -33,7 +33,7 @@ NamedList<ParticleSystemDescription>& list_in(SceneDescription& s,
   return s.particles;
 }
 
-/// Calls f for the four lists of parts with their keys.
+/// Calls f for the four lists of parts and their keys.
 template <class Scene, class F>
 void for_lists(Scene& s, const F& f) {
   f("emitters", s.emitters);
@@ -42,8 +42,7 @@ void for_lists(Scene& s, const F& f) {
   f("particles", s.particles);
 }
 
-/// What the functions that build a scene ask for of a world that somebody else owns: lent, and
-/// given back.
+/// Lends a world owned by somebody else to the functions that build a scene, and returns it.
 class LentWorld {
  public:
   explicit LentWorld(World& world) {
@@ -66,7 +65,7 @@ class LentWorld {
   BuiltScene built_;
 };
 
-/// The first thing that is wrong with a description by itself.
+/// The first fault of a description on its own.
 Status checked(const std::string& name, const PartDescription& part) {
   std::optional<Error> first;
   const FaultSink sink = [&](std::string path, std::string message) {
@@ -89,7 +88,8 @@ bool holds_on_to(const ForceDef& def, ParticleSystemId id) {
   return std::any_of(ends.begin(), ends.end(), is_of);
 }
 
-/// What an emitter makes copies of: a body of now, as if it had been described for that.
+/// The template for an emitter's copies: an existing body, as if it had been described for that
+/// purpose.
 std::shared_ptr<const BodyDef> template_of(const World& world, const std::string& name) {
   auto def = world.body_def(world.find_body(name));
   if (!def) return nullptr;
@@ -106,7 +106,7 @@ const SceneMeshes& no_meshes() {
   return none;
 }
 
-/// Whether the scene has the mesh that an emitter emits from.
+/// Whether the scene has the mesh from which an emitter emits.
 Status mesh_there(const EmitterDescription& d, const SceneMeshes* meshes) {
   if (!d.shape) return {};
   return std::visit(
@@ -127,7 +127,7 @@ ParticleSystemId system_named(const World& world, const std::string& name) {
   return {};
 }
 
-/// What a description makes in this world.
+/// What a description creates in this world.
 struct MadeSystem {
   ParticleSystemDef def;
   std::vector<WaitingWeave> weaves;
@@ -149,7 +149,7 @@ Result<MadeSystem> make_system(World& world, const SceneDescription& parts, cons
   return MadeSystem{*std::move(def), *std::move(woven)};
 }
 
-/// Whether particles of both begin in the same places with the same velocities.
+/// Whether the particles of both start at the same positions with the same velocities.
 bool begins_alike(const ParticleSystemDef& a, const ParticleSystemDef& b) {
   return std::ranges::equal(a.particles, b.particles,
                             [](const auto& p, const auto& q) { return p.x == q.x && p.v == q.v; });
@@ -167,7 +167,7 @@ bool tied_alike(const ParticleSystemDescription& a, const ParticleSystemDescript
   return ties(a) == ties(b);
 }
 
-/// Springs and weaves of a system that has come into the world.
+/// Creates the springs and weaves of a system that now exists in the world.
 Status tie_system(World& world, const ParticleSystemDescription& d, ParticleSystemId id,
                   std::vector<WaitingWeave> weaves) {
   if (d.springs) {
@@ -184,7 +184,7 @@ Status tie_system(World& world, const ParticleSystemDescription& d, ParticleSyst
   return {};
 }
 
-/// Whether a force is held by a particle of the system of this name.
+/// Whether a force is attached to a particle of the system with this name.
 bool holds_particle_of(const ForceDescription& d, const std::string& system) {
   if (const auto* spring = std::get_if<SpringDescription>(&d.kind))
     return spring->a.particles == system || spring->b.particles == system;
@@ -271,7 +271,7 @@ std::string LiveParts::new_force_name(const SceneDescription& parts,
 void LiveParts::know(const std::string& name, ForceId id) {
   std::vector<ForceId>& known = forces_[name];
   std::erase(known, id);
-  known.push_back(id);  // the newest is asked for first
+  known.push_back(id);  // the newest is looked up first
 }
 
 EmitterId LiveParts::emitter(const World& world, const std::string& name) const {
@@ -324,7 +324,7 @@ Status LiveParts::set_emitter(World& world, const SceneDescription& parts, const
   std::shared_ptr<const BodyDef> body;
   if (!d.body.empty()) {
     body = template_of(world, d.body);
-    // One that is only there to be copied is known from before.
+    // A body that only serves as a template is known from before.
     if (!body && old) body = old->def->body;
     if (!body) return missing("body", d.body);
   }
@@ -398,7 +398,7 @@ Status LiveParts::set_particles(World& world, const SceneDescription& parts,
   return follow_particles(world, parts, name);
 }
 
-/// Emitters that fill a system take its values anew.
+/// Updates emitters that fill a system, from which they take values.
 Status LiveParts::follow_values(World& world, const SceneDescription& parts,
                                 const std::string& name) {
   for (const auto& [emitter_name, d] : parts.emitters.items)
@@ -407,7 +407,7 @@ Status LiveParts::follow_values(World& world, const SceneDescription& parts,
   return {};
 }
 
-/// So do springs at particles of a system that begin anew, and ropes of other systems.
+/// Updates springs at particles of a system that begins anew, and ropes of other systems.
 Status LiveParts::follow_particles(World& world, const SceneDescription& parts,
                                    const std::string& name) {
   if (Status done = follow_values(world, parts, name); !done) return done;
@@ -421,7 +421,7 @@ Status LiveParts::follow_particles(World& world, const SceneDescription& parts,
   return {};
 }
 
-/// Destroys the springs and weaves of a system's particles; forces that the scene names stay.
+/// Destroys the springs and weaves of a system's particles, except forces that the scene names.
 void LiveParts::untie(World& world, const SceneDescription& parts, ParticleSystemId id) const {
   std::vector<ForceId> named;
   for (const auto& [name, d] : parts.forces.items) named.push_back(force(world, name));

@@ -21,7 +21,7 @@ ShapeDef of_mesh(ShapeType type, std::shared_ptr<const TriangleMesh> mesh) {
   return out;
 }
 
-/// Below this part of a mesh's diagonal an error is that of the six digits to which files are
+/// Errors below this share of a mesh's diagonal are those of the six digits with which files are
 /// written [-].
 constexpr double as_written = 2e-6;
 
@@ -95,7 +95,7 @@ std::string hull_note(const std::shared_ptr<const TriangleMesh>& mesh) {
   const auto of_hull = (*hull)->mass_properties();
   const auto volume = closed ? mesh_mass(*mesh) : Result<MassProperties>(Error{});
   const double more = of_hull && volume && volume->mass > 0 ? of_hull->mass / volume->mass : 0;
-  // Without more volume there is nothing outside, and nothing to sample.
+  // If the volumes are equal, nothing is outside and no samples are needed.
   constexpr double same_volume = 1e-9;
   if (more > 0 && more < 1 + same_volume) return {};
   const PlacedShape placed{*hull, {}};

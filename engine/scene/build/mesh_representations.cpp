@@ -42,8 +42,8 @@ size_t bytes_of_shape(const Shape& shape) {
   return out;
 }
 
-/// Of the surface where the field is zero: walked to from points of the mesh, and how far these are
-/// outside of it.
+/// Error of the zero level set of a field: points of it are found by projection of points of the
+/// mesh; and how far points of the mesh are outside of it.
 SolidError field_error_of(const DistanceField& field, const Hierarchy& surface) {
   SolidError out;
   const SurfaceSamples on_surface(surface.mesh());
@@ -58,7 +58,8 @@ SolidError field_error_of(const DistanceField& field, const Hierarchy& surface) 
   return out;
 }
 
-/// Mean time of the contacts of a ball of a fiftieth of the size, laid about the surface.
+/// Mean time to compute the contacts of a ball of 1/50 of the size, at positions around the
+/// surface.
 double time_queries(const std::vector<PlacedShape>& shapes, const TriangleMesh& mesh, double size) {
   const auto ball = make_shape(ball_def(size / 50));
   if (!ball) return 0;

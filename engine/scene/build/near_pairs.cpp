@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// Number of a cell along each axis; whole numbers that a double holds exactly.
+/// Index of a cell along each axis: integers that a double represents exactly.
 using Cell = std::array<double, 3>;
 
 struct Placed {
@@ -15,8 +15,8 @@ struct Placed {
   uint32_t point;
 };
 
-/// Edge of the cells [m]: a little more than the reach, so that rounding puts no two near points
-/// two cells apart, and no smaller than doubles of that size can number.
+/// Edge of the cells [m]: slightly more than the reach, so that rounding never puts two near points
+/// two cells apart, and not smaller than indices in double precision allow.
 double cell_edge(std::span<const Vec3> points, double reach) {
   double extent = 0;
   for (const Vec3& x : points) extent = std::max(extent, x.cwiseAbs().maxCoeff());
@@ -44,9 +44,10 @@ std::optional<std::vector<std::pair<uint32_t, uint32_t>>> near_pairs(std::span<c
   const double edge = cell_edge(points, reach), furthest = reach * (1 + 1e-9);
   const std::vector<Placed> placed = sorted_into_cells(points, edge);
   std::vector<std::pair<uint32_t, uint32_t>> out;
-  // Each point against those behind it in its own cell, and in half of the cells around: a row of
-  // three along the last axis is one run of the sorted list. Of a crowd in one cell a fixed share
-  // of the pairs tried are near, so that the limit is met before many have been tried.
+  // Each point is compared with those after it in its own cell, and with half of the cells around:
+  // three neighbouring cells along the last axis are contiguous in the sorted list. In a crowded
+  // cell a fixed share of the tested pairs are near, so that the limit is reached before many were
+  // tested.
   constexpr std::array<std::array<double, 2>, 4> rows{{{0, 1}, {1, -1}, {1, 0}, {1, 1}}};
   const auto try_run = [&](const Placed& a, std::vector<Placed>::const_iterator run,
                            const Cell& last) {

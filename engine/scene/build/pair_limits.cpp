@@ -11,7 +11,8 @@
 namespace tumble {
 namespace {
 
-/// Curvature of a potential at its minimum: of a pair, the spring that it is like there [N/m].
+/// Curvature of a potential at its minimum, i.e. the stiffness of the equivalent spring of a pair
+/// [N/m].
 double well_stiffness(const ForceDef& def) {
   // (12 * 13 * 4 - 6 * 7 * 4 * 2) / 2^(7/3), at r = 2^(1/6) sigma.
   constexpr double lennard_jones = 57.146;
@@ -44,9 +45,9 @@ std::vector<std::string> pair_limit_warnings(const BuiltScene& built) {
     const auto* between = force ? paired_systems(*force) : nullptr;
     const double stiffness = between ? well_stiffness(*force) : 0;
     if (!(stiffness > 0)) continue;
-    // The fastest oscillation of a face-centred crystal of springs between nearest neighbours:
-    // omega^2 = 8 k / m (Ashcroft and Mermin, Solid State Physics, ch. 22). The leapfrog bursts at
-    // omega h = 2; half of it leaves room for what collides.
+    // The highest frequency of a face-centred cubic crystal with springs between nearest
+    // neighbours: omega^2 = 8 k / m (Ashcroft and Mermin, Solid State Physics, ch. 22). The
+    // leapfrog scheme is unstable from omega h = 2; half of it leaves a margin for collisions.
     const double omega = std::sqrt(8 * stiffness / least_mass(*built.world, *between, built));
     if (!(omega / hz > 1)) continue;
     out.push_back(fmt::format(

@@ -25,7 +25,7 @@ struct Filler {
     out.particles.push_back(p);
   }
 
-  /// Refuses what would pass the limit before any memory is taken for it.
+  /// Rejects a number beyond the limit before any memory is allocated for it.
   Status room_for(double count) const {
     if (double(out.particles.size()) + count <= budget) return {};
     return Error{ErrorCode::invalid_argument,
@@ -81,7 +81,7 @@ struct Filler {
     const Vec3 axis = f.axis.normalized();
     tangent_frame(axis, t1, t2);
     for (int i = 0; i < f.count; ++i) {
-      // Evenly over the area of the ring.
+      // Uniform over the area of the ring.
       const double r = std::sqrt(random.uniform(f.inner * f.inner, f.outer * f.outer));
       const double angle = random.uniform(0, 2 * det::pi);
       const Vec3 out = det::cos(angle) * t1 + det::sin(angle) * t2;

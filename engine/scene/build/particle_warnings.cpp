@@ -16,20 +16,20 @@
 namespace tumble {
 namespace {
 
-/// Fluid particles nearer than this part of their spacing are on one place [-].
+/// Fluid particles nearer than this share of their spacing count as coincident [-].
 constexpr double fluid_coincidence = 0.3;
-/// The same of balls that collide, of their radius [-].
+/// The same for colliding balls, as a share of their radius [-].
 constexpr double ball_coincidence = 1e-3;
-/// More pairs than this are not counted.
+/// Greatest number of pairs that are counted.
 constexpr size_t most_pairs = 10000;
-/// Births that are looked at, of each emitter.
+/// Number of births examined for each emitter.
 constexpr int births = 64;
 
 std::string place_text(const Vec3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
 }
 
-/// Particles of all systems that push each other.
+/// The particles of all systems that interact by contact.
 struct Together {
   std::vector<Vec3> x;
   std::vector<const std::string*> system;
@@ -82,7 +82,7 @@ bool comes_by_itself(const EmitterDef& def) {
   return def.rate > 0 || !def.bursts.empty();
 }
 
-/// Points where something is born, in the world.
+/// Positions in the world where an emitter creates particles or bodies.
 std::vector<Vec3> births_of(const World& world, const Emitter& emitter) {
   const RigidBody* carrier = world.body(emitter.def->carrier);
   const Pose frame = carrier ? carrier->body_frame() * emitter.def->pose : emitter.def->pose;
@@ -92,7 +92,7 @@ std::vector<Vec3> births_of(const World& world, const Emitter& emitter) {
   return out;
 }
 
-/// How many of the points are in a body.
+/// The number of points inside a body.
 int points_in(const RigidBody& body, const std::vector<Vec3>& points) {
   int out = 0;
   for (const Vec3& p : points)
@@ -124,7 +124,7 @@ void look_at_births(const BuiltScene& built, std::vector<std::string>& out) {
   }
 }
 
-/// Emitters that neither rate and bursts nor the events of others make emit.
+/// Reports emitters that neither their rate and bursts nor events of others trigger.
 void look_at_silence(const BuiltScene& built, std::vector<std::string>& out) {
   std::set<std::string_view> called;
   for (const auto& [name, e] : built.description->emitters.items)
@@ -207,9 +207,9 @@ void look_at_periodic_boxes(const BuiltScene& built, std::vector<std::string>& o
   }
 }
 
-/// Weakly compressible fluids are squeezed by (v / c)^2: a hundredth, where what falls through
-/// their depth has a tenth of the speed of sound (Monaghan, "Simulating free surface flows with
-/// SPH", 1994).
+/// Weakly compressible fluids are compressed by about (v / c)^2: one percent, if the speed after
+/// falling through the fluid's depth is a tenth of the speed of sound c (Monaghan, "Simulating free
+/// surface flows with SPH", 1994).
 void look_at_sound(const BuiltScene& built, std::vector<std::string>& out) {
   const Vec3& g = built.world->settings().gravity;
   for (const auto& [name, id] : built.particles) {

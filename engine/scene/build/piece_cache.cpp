@@ -9,10 +9,10 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t format_version = 2;  ///< of the files, not of the method
+constexpr uint32_t format_version = 2;  ///< version of the file format, not of the method
 constexpr std::string_view section = "convex pieces";
 
-/// Everything that decides what the pieces are.
+/// Everything that determines the pieces.
 Bytes key_of(const TriangleMesh& mesh, const ApproximateDecompositionOptions& options) {
   ByteWriter out;
   out.value(format_version);
@@ -67,7 +67,7 @@ Bytes bytes_of(const ConvexDecomposition& d) {
   return out.take();
 }
 
-/// Whether loops of faces stand one after the other and name vertices that there are.
+/// Whether the loops of faces are consecutive and refer to existing vertices.
 bool loops_fit(const std::vector<uint32_t>& first, const std::vector<uint32_t>& vertices,
                size_t vertex_count) {
   if (first.size() < 2 || first.front() != 0 || first.back() != vertices.size()) return false;
@@ -114,7 +114,7 @@ std::optional<ConvexDecomposition> decomposition_of(std::span<const std::byte> b
   return out;
 }
 
-/// From the cache, or made and put there.
+/// Reads from the cache, or computes and stores.
 template <class Make>
 Result<ConvexDecomposition> kept_or_made(const ContentCache& cache, const Bytes& key,
                                          const Make& make) {

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// As SceneMeshes::wrapped().
+/// See SceneMeshes::wrapped().
 std::shared_ptr<const TriangleMesh> wrap_of_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                                  const std::optional<WrapDescription>& wrap,
                                                  const std::string& path, const FaultSink& sink,

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// Of a body whose name may hold an expression in i; null for "".
+/// The body with a name that may contain an expression in i; null for "".
 Result<BodyId> counted_body(const std::string& name, int i, const BuiltScene& built) {
   if (name.empty()) return BodyId{};
   const auto counted = counted_name(name, i);

@@ -17,11 +17,12 @@
 namespace tumble {
 namespace {
 
-/// A run of a second is of use while an amplitude at most doubles in it by the integrator alone.
+/// A run of a second is useful as long as integration errors alone at most double an amplitude in
+/// that time.
 constexpr double most_growth = 2;
 
-/// What springs do to one end: k n n^T / m summed over the springs there, the same of their
-/// damping, and the stiffest of them.
+/// Effect of springs on one end: sums of k n n^T / m over the springs there and the same for their
+/// damping, and the stiffest spring.
 struct Joined {
   Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();  ///< [1/s2], [1/s]
   double most = 0;
@@ -35,12 +36,12 @@ struct Joined {
   }
 };
 
-/// An end by what it is on.
+/// Identifies an end by what it is attached to.
 using EndKey = std::pair<uint64_t, uint64_t>;
 
 struct End {
   Vec3 x;
-  double mobility = 0;  ///< of its point, as if it were alone [1/kg]
+  double mobility = 0;  ///< of its point, as for a free body [1/kg]
   EndKey key{};
 };
 
@@ -74,7 +75,7 @@ void add_spring(const std::string& name, const End& a, const End& b, double stif
       ends[end->key].add(name, stiffness, damping, (b.x - a.x) / length, end->mobility);
 }
 
-/// Bends pull in any direction at each of their nodes.
+/// Bending springs pull in all directions at each of their nodes.
 void add_mesh(const std::string& name, const SpringMesh& mesh, const World& world, Ends& ends) {
   std::vector<End> nodes;
   for (const Anchor& node : mesh.nodes) nodes.push_back(end_of(node, world));
@@ -90,7 +91,7 @@ void add_mesh(const std::string& name, const SpringMesh& mesh, const World& worl
     }
 }
 
-/// Of a fastest oscillation: never more than there is, as every end may move alone.
+/// The fastest oscillation of an end, estimated as if it moved alone, so never too fast.
 struct Oscillation {
   double w = 0, d = 0;  ///< [rad/s], rate of decay [1/s]
 };
@@ -100,7 +101,7 @@ Oscillation fastest(const Joined& joined) {
   return {std::sqrt(std::max(0.0, solver.eigenvalues()[2])), 0.5 * axis.dot(joined.damping * axis)};
 }
 
-/// What a second does to the amplitude; the stepper's steps follow the springs.
+/// Growth of the amplitude in a second; sub-steps of the stepper are adapted to the springs.
 double growth_per_second(std::string_view integrator, const Oscillation& o, double hz) {
   const double step = tolerances::swing_per_step / std::max(o.w, 2 * o.d);
   const double h = std::min(1 / hz, step);

@@ -17,11 +17,11 @@
 namespace tumble {
 namespace {
 
-/// A rod may be off by this part of its length: what rounding in a scene's numbers makes [-].
+/// Relative error of a rod's length that is attributed to rounding of the scene's numbers [-].
 constexpr double length_slack = 0.01;
-/// A body this many times as large as the others are in the middle ...
+/// A body this many times larger than the median is out of proportion ...
 constexpr double out_of_proportion = 50;
-/// ... and larger than anything that falls in a room [m].
+/// ... if it is also larger than this [m].
 constexpr double enormous = 50;
 
 void look_at_rods(const BuiltScene& built, std::vector<std::string>& out) {
@@ -67,15 +67,15 @@ void look_at_springs(const BuiltScene& built, std::vector<std::string>& out) {
   }
 }
 
-/// What the looks at bodies need to know of each.
+/// Properties of a body needed for the checks.
 struct Extent {
   const BodyInfo* info;
   Vec3 x;
-  double size = 0;  ///< diameter of a ball about the centre of mass that holds it [m]
+  double size = 0;  ///< diameter of a bounding ball about the centre of mass [m]
   bool mesh = false;
 };
 
-/// A half-space that nothing moves.
+/// A half space that cannot move.
 struct Ground {
   std::string name;
   Vec3 x, up;
@@ -119,7 +119,7 @@ void look_at_bodies(const BuiltScene& built, std::vector<std::string>& out) {
   std::sort(sizes.begin(), sizes.end());
   Sentences sentences(out);
   for (const Extent& e : bodies) {
-    // The lower middle: of two, the smaller one is the measure.
+    // The lower median: of two sizes, the smaller one is the reference.
     const double middle = bodies.size() > 1 ? sizes[(sizes.size() - 1) / 2] : 1;
     if (e.info->type != BodyType::dynamic || e.size < enormous ||
         e.size < out_of_proportion * middle)

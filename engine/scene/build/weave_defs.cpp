@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// The nodes that a pin is about.
+/// The nodes to which a pin applies.
 std::vector<std::pair<int, int>> pinned_nodes(const PinDescription& pin, int rows, int columns) {
   using enum PinPlace;
   const int last_row = rows - 1, last_column = columns - 1;
@@ -163,7 +163,7 @@ double strain_of(const auto& sheet) {
   return sheet.sheet.springs.break_strain;
 }
 
-/// Refused before any memory is taken for it.
+/// Number of nodes; checked before any memory is allocated.
 double nodes_of(const RopeDescription& d) {
   return double(d.segments) * double(d.path.size());
 }

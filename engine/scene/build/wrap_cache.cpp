@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t wrap_format = 1;  ///< of the files, not of the method
+constexpr uint32_t wrap_format = 1;  ///< version of the file format, not of the method
 constexpr std::string_view wrap_section = "wrapped mesh";
 
 /// The numbers of a report, in the order of the file.

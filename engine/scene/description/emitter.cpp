@@ -18,7 +18,7 @@ void check_positive(const std::optional<RandomNumberDescription>& d, const char*
                                     unit, d->number.least()));
 }
 
-/// Neither a value nor the farthest that the spread allows may be larger.
+/// Checks that neither the mean nor the greatest value that the spread allows exceeds `most`.
 void check_most(const std::optional<RandomNumberDescription>& d, const char* key, const char* unit,
                 double most, Complaints& complaints) {
   if (!d) return;
@@ -28,7 +28,7 @@ void check_most(const std::optional<RandomNumberDescription>& d, const char* key
                    fmt::format("must be <= {0:.12g} {1}, got {2:.12g} {1}", most, unit, largest));
 }
 
-/// Keys that mean nothing for what it emits.
+/// Reports keys that have no meaning for the kind of thing it emits.
 void check_kind(const EmitterDescription& d, Complaints& complaints) {
   if (d.particles.empty() == d.body.empty()) {
     complaints.add("", "an emitter has either particles or a body");
@@ -43,7 +43,7 @@ void check_kind(const EmitterDescription& d, Complaints& complaints) {
   }
 }
 
-/// Times must ascend; what is not drawn or has no speed is not changed either.
+/// Times must ascend; keys must not change values that the emitter does not have.
 void check_course(const EmitterDescription& d, Complaints& complaints) {
   for (size_t i = 0; i < d.over_time.size(); ++i) {
     const std::string at = fmt::format("over_time[{}]", i);

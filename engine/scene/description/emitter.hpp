@@ -55,7 +55,7 @@ struct RandomNumberDescription {
   }
 };
 
-/// A shape to emit from that is a mesh of the scene.
+/// An emission shape that is a mesh of the scene.
 template <class Emission>
 struct MeshEmissionDescription {
   static constexpr std::string_view type_name = Emission::type_name;
@@ -66,7 +66,7 @@ struct MeshEmissionDescription {
   }
 };
 
-/// How a scene describes a shape to emit from: its definition, with a name where that has a mesh.
+/// The description of an emission shape: its definition, with a name instead if it has a mesh.
 template <class Def>
 using DescribedEmission = std::conditional_t<std::is_same_v<Def, MeshSurfaceEmission> ||
                                                  std::is_same_v<Def, MeshVolumeEmission>,
@@ -113,7 +113,7 @@ struct BurstDescription {
   }
 };
 
-/// What is different of what leaves at a time; in between it is straight from one such to the next.
+/// Properties of what is emitted at a time; between keys they are interpolated linearly.
 struct EmissionKeyDescription {
   double time = 0;  ///< [s]
   std::optional<double> rate, speed, spread, life, mass, radius, spin;
@@ -148,7 +148,7 @@ struct EmissionKeyDescription {
   }
 };
 
-/// What the particles or bodies of an emitter give birth to.
+/// What the particles or bodies of an emitter emit when an event occurs.
 struct EmitterEventDescription {
   SpawnRule::On event = SpawnRule::On::death;
   std::string emitter;
@@ -181,7 +181,7 @@ struct EmitterEventDescription {
   }
 };
 
-/// Where particles, or bodies, come from.
+/// A source of particles, or of bodies.
 struct EmitterDescription {
   std::string particles, body, carrier;
   Placement placement;
@@ -280,7 +280,7 @@ struct EnumNames<SinkTakes> {
        {"both", SinkTakes::both}}};
 };
 
-/// Where particles, or bodies, go.
+/// A sink, which removes particles or bodies.
 struct SinkDescription {
   SinkRegion region;
   Placement placement;

@@ -15,7 +15,7 @@ struct EnumNames<FluidKernelKind> {
       {{"cubic_spline", FluidKernelKind::cubic_spline}, {"wendland", FluidKernelKind::wendland}}};
 };
 
-/// What the particles of a system are as a fluid.
+/// Properties of the particles of a system as a fluid.
 struct FluidDescription {
   FluidDef def;
 

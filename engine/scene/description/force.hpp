@@ -65,7 +65,7 @@ struct AnchoredDescription {
   }
 };
 
-/// A field and the names of what it acts on: a body with copies means all of them.
+/// A field and the names of what it acts on; a body with copies stands for all of them.
 template <class Def>
 struct FieldDescription {
   static constexpr std::string_view type_name = Def::type_name;
@@ -104,7 +104,7 @@ struct PairDescription {
   }
 };
 
-/// How a scene describes a force: its definition, with names where that has ids.
+/// The description of a force: its definition, with names instead of ids.
 template <class Def>
 struct DescribedForce {
   using type = Def;
@@ -131,7 +131,7 @@ requires requires(Def d) {
 struct DescribedForce<Def> {
   using type = AnchoredDescription<Def>;
 };
-/// Meshes are described with the particles that they tie together (weave.hpp).
+/// Meshes of springs are described together with the particles that they connect (weave.hpp).
 template <>
 struct DescribedForce<SpringMeshDef> {
   using type = void;

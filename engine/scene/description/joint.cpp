@@ -16,7 +16,7 @@ std::string names_of_coordinates(const JointKindEntry& kind) {
 
 namespace {
 
-/// Keys of angles in degrees, of lengths without a suffix.
+/// Checks that angles are given by keys in degrees, and lengths by keys without a suffix.
 void check_units(const DriveDescription& d, bool angle, const std::string& path,
                  Complaints& complaints) {
   const auto refuse = [&](bool given, const char* key) {

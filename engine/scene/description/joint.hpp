@@ -39,8 +39,8 @@ struct JointDescription {
   std::optional<double> start, start_deg;
   bool collide = false;
   int count = 1;
-  DriveDescription drive;  ///< of the only coordinate
-  /// By the names of coordinates.
+  DriveDescription drive;  ///< for a joint with one coordinate
+  /// By the names of the coordinates.
   std::optional<DriveDescription> angle, angle_2, position, x, y, swing, twist;
   std::optional<double> break_force, break_torque;
 

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// An expression for a number; "" when it is one.
+/// Why a text is not an expression for a number; "" if it is.
 std::string not_a_number(const std::string& text) {
   const auto parsed = Expression::parse(text);
   if (!parsed) return parsed.error().text();

@@ -12,7 +12,7 @@ struct QuestionDescription {
   std::string ask;
   std::optional<double> answer;
   std::string quantity;      ///< an expression over what `tumble simulate --assert` knows
-  std::optional<double> at;  ///< the moment of the quantity [s]; none: the one that is shown
+  std::optional<double> at;  ///< time of the measurement [s]; none: when the question is answered
   double tolerance = 0;      ///< in units of the answer
   std::string unit;
   std::string hint;
@@ -47,11 +47,11 @@ struct QuestionDescription {
 /// A page of a lesson, with the camera, overlays and plots for it.
 struct LessonStepDescription {
   std::string title;
-  std::vector<std::string> text;      ///< paragraphs
+  std::vector<std::string> text;      ///< one text per paragraph
   std::string camera;                 ///< of the scene; empty: the view stays
   std::vector<std::string> overlays;  ///< on while this page is read
   std::vector<std::string> plot;      ///< expressions over what --assert knows
-  std::vector<std::string> choose;    ///< "path=value", as of --set
+  std::vector<std::string> choose;    ///< "path=value", as for --set
   bool restart = false;
   std::optional<QuestionDescription> question;
 

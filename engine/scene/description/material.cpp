@@ -44,13 +44,13 @@ const std::vector<std::pair<std::string_view, Material>>& built_in_materials() {
 
 Result<Material> resolve_material(const MaterialDescription& description,
                                   const NamedList<MaterialDescription>& materials) {
-  // From the one asked for up to the base, then laid over each other from the base down.
+  // From the requested one up to the base, then merged from the base down.
   std::vector<const MaterialDescription*> chain{&description};
   Material out;
   while (!chain.back()->like.empty()) {
     const std::string& name = chain.back()->like;
     const MaterialDescription* next = materials.find(name);
-    // "steel": {"like": "steel", ...} refines the built-in one.
+    // "steel": {"like": "steel", ...} refines the built-in material.
     if (next == chain.back()) next = nullptr;
     if (!next) {
       bool found = false;

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// An algorithm that is to be watched on two bodies, step by step.
+/// An algorithm to be shown step by step on two bodies.
 struct MicroscopeDescription {
   std::string algorithm = "gjk";
   std::string a, b;

@@ -9,12 +9,12 @@
 
 namespace tumble {
 
-/// What a scene holds besides bodies and joints, as it describes it: it can be added to a world
-/// that runs, changed and taken away.
+/// Descriptions of the parts of a scene other than bodies and joints. They can be added to a
+/// running world, changed and removed.
 using PartDescription = std::variant<EmitterDescription, SensorDescription, ForceDescription,
                                      ParticleSystemDescription>;
 
-/// Under which key of a scene the part stands.
+/// The key of the scene's list that contains parts of this kind.
 inline std::string_view list_of(const PartDescription& part) {
   constexpr std::string_view lists[] = {"emitters", "sensors", "forces", "particles"};
   return lists[part.index()];

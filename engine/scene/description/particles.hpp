@@ -11,7 +11,7 @@ namespace tumble {
 
 constexpr double max_particles = 2e6;  ///< of one system
 
-/// Lattices of points by their cubic cells.
+/// Lattices, by their conventional cubic cells.
 enum class Arrangement : uint8_t { cubic, body_centred, face_centred };
 template <>
 struct EnumNames<Arrangement> {
@@ -152,7 +152,7 @@ struct FillDescription {
   }
 };
 
-/// One particle; what is not given is the system's.
+/// One particle; values not given are those of the system.
 struct ParticleDescription {
   Vec3 position = Vec3::Zero();  ///< [m]
   std::optional<Vec3> velocity;  ///< [m/s]
@@ -188,13 +188,13 @@ struct ParticleDescription {
   }
 };
 
-/// Damped springs between each two particles of a system that are near each other at the start: a
-/// net, a cloth, a jelly.
+/// Damped springs between all pairs of particles of a system that are near each other at the start,
+/// which makes a net, a cloth or an elastic solid.
 struct NeighbourSpringsDescription {
   double reach = 0.1;                   ///< [m]
   double stiffness = 100, damping = 1;  ///< [N/m], [N s/m]
-  double rest = 1;                      ///< of the distance at the start [-]
-  double cable_radius = 0;              ///< as of a spring [m]
+  double rest = 1;                      ///< over the initial distance [-]
+  double cable_radius = 0;              ///< as for a spring [m]
 
   static constexpr std::string_view schema_name = "neighbour_springs";
   template <class Visitor, class Self>
@@ -222,7 +222,7 @@ struct NeighbourSpringsDescription {
   }
 };
 
-/// A box whose opposite faces are one, for some particles.
+/// A periodic box for some particles: opposite faces are identified.
 struct PeriodicBoxDescription {
   Vec3 centre = Vec3::Zero();  ///< [m]
   Vec3 size{1, 1, 1};          ///< [m]
@@ -241,7 +241,7 @@ struct PeriodicBoxDescription {
   }
 };
 
-/// Particles are balls that spin.
+/// Makes the particles rigid balls with rotation.
 struct GrainsDescription {
   double rolling_friction = 0.05, torsional_friction = 0.05;
   int substeps = 0;
@@ -284,7 +284,7 @@ struct EnumNames<ParticleQuantity> {
        {"pressure", ParticleQuantity::pressure}}};
 };
 
-/// As what particles are drawn. In a file a bare name stands for {"style": name}.
+/// How particles are drawn. In a file a bare name stands for {"style": name}.
 struct ParticleLookDescription {
   ParticleStyle style = ParticleStyle::spheres;
   ParticleQuantity colour_by = ParticleQuantity::none;

@@ -9,11 +9,11 @@
 namespace tumble {
 namespace {
 
-/// Errors of the squared norm of a quaternion that was made unit, or is a product of such [-]:
-/// it is taken as it is, so that what is saved comes back with the same bits.
+/// Error of the squared norm of a quaternion that was normalised, or is a product of such [-]:
+/// within it a quaternion is kept as it is, so that saving and reading preserve its bits.
 constexpr double unit_error = 16 * std::numeric_limits<double>::epsilon();
 
-/// Angles that people write have no more decimals than these [1/deg].
+/// Angles written by people have at most nine decimals [1/deg].
 constexpr double steps_of_round_angles = 1e9;
 
 }  // namespace
@@ -45,7 +45,7 @@ Pose Placement::pose() const {
 void Placement::turn(const Quat& q) {
   orientation.reset(), axis.reset(), angle_deg.reset(), euler_deg.reset();
   const Vec3 angles = quat_to_euler_deg(q);
-  const Vec3 round =  // without zeros of negative sign
+  const Vec3 round =  // replaces -0 by 0
       Vec3((angles * steps_of_round_angles).array().round() / steps_of_round_angles) + Vec3::Zero();
   for (const Vec3& turn : {round, angles})
     if (euler_deg_to_quat(turn).coeffs() == q.coeffs()) {

@@ -6,7 +6,7 @@ namespace tumble {
 /// Position and orientation; the orientation in at most one of three forms.
 struct Placement {
   Vec3 position = Vec3::Zero();     ///< [m]
-  std::optional<Quat> orientation;  ///< w, x, y, z; made unit where it is not so to rounding
+  std::optional<Quat> orientation;  ///< w, x, y, z; normalised unless its norm is 1 up to rounding
   std::optional<Vec3> euler_deg;    ///< about x, then the new y, then the new z [deg]
   std::optional<Vec3> axis;         ///< with angle_deg
   std::optional<double> angle_deg;  ///< [deg]
@@ -33,8 +33,8 @@ struct Placement {
   }
   static void check(const Placement& d, Complaints& complaints);
 
-  /// Turned so: by angles where some give these very bits, round ones first, else by the
-  /// quaternion.
+  /// Sets the orientation: by angles if some give exactly these bits, preferably round ones,
+  /// otherwise by the quaternion.
   void turn(const Quat& q);
 };
 

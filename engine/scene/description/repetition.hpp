@@ -117,7 +117,7 @@ struct EnumNames<ScatterRegion> {
        {"cylinder", ScatterRegion::cylinder}}};
 };
 
-/// Random places in a box or a ball around the position, from the scene's seed.
+/// Random positions in a box or a ball around the position, from the scene's seed.
 struct ScatterRepetition {
   static constexpr std::string_view type_name = "scatter";
   int count = 1;
@@ -151,7 +151,7 @@ struct ScatterRepetition {
   }
 };
 
-/// Places by formula in `i` (0 .. n-1), `n`, `u` = i / (n-1), and the scene's parameters.
+/// Positions by formulas in `i` (0 .. n-1), `n`, `u` = i / (n-1), and the scene's parameters.
 struct FormulaRepetition {
   static constexpr std::string_view type_name = "formula";
   int count = 1;
@@ -174,7 +174,7 @@ struct FormulaRepetition {
   static void check(const FormulaRepetition& d, Complaints& complaints);
 };
 
-/// Explicit places.
+/// A list of positions.
 struct PointsRepetition {
   static constexpr std::string_view type_name = "points";
   std::vector<Vec3> points;
@@ -195,7 +195,8 @@ struct PointsRepetition {
 using RepetitionKind = std::variant<GridRepetition, StackRepetition, RingRepetition,
                                     ScatterRepetition, FormulaRepetition, PointsRepetition>;
 
-/// Many copies of a body. Several in a list nest: each copy of the first carries all of the second.
+/// Makes copies of a body. Several in a list are nested: each copy of the first carries all of the
+/// second.
 struct RepetitionDescription {
   RepetitionKind kind;
   Vec3 jitter = Vec3::Zero();  ///< [m]

@@ -42,8 +42,8 @@ struct CoordinateDescription {
   }
 };
 
-/// A robot from a file of its own: it stands for its bodies, joints and meshes, whose names begin
-/// with its name and _.
+/// A robot from a file of its own. It is replaced by its bodies, joints and meshes, whose names are
+/// prefixed by its name and _.
 struct RobotDescription {
   std::string file;
   Placement placement;
@@ -89,7 +89,7 @@ struct RobotDescription {
   }
 };
 
-/// What of a scene must be known before its robots are.
+/// The parts of a scene that must be read before its robots.
 struct RobotsOfScene {
   NamedList<ParameterDescription> parameters_;
   NamedList<RobotDescription> robots;

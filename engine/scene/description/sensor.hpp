@@ -119,7 +119,7 @@ struct ContactSensorDescription {
   }
 };
 
-/// At what distances from each other particles are.
+/// Measures the distribution of distances between particles.
 struct RadialDescription {
   static constexpr std::string_view type_name = "radial_distribution";
   std::vector<std::string> particles;
@@ -143,7 +143,7 @@ struct RadialDescription {
   }
 };
 
-/// Something that is measured while a scene runs, and changes nothing.
+/// Something that is measured while a scene runs, without effect on it.
 struct SensorDescription {
   std::variant<GateDescription, RegionDescription, ContactSensorDescription, RadialDescription>
       kind;

@@ -32,7 +32,7 @@ ShapeKind kind_at(const ShapeDef& def) {
 }  // namespace
 
 std::string shape_fault(const ShapeDef& def) {
-  if (!all_in_range(def)) return "";  // said of the number itself
+  if (!all_in_range(def)) return "";  // the range of the number itself is reported elsewhere
   const auto made = make_shape(def);
   return made ? "" : made.error().message;
 }

@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// What is wrong with a shape whose numbers are each in their range: "" for nothing.
+/// The fault of a shape whose numbers are each in range; "": none.
 std::string shape_fault(const ShapeDef& def);
 
 template <>
@@ -23,8 +23,8 @@ struct EnumNames<MeshMode> {
        {"fit", MeshMode::fit}}};
 };
 
-/// How a mesh collides, and the numbers of that way: of a mesh for all shapes that name it, or of
-/// one such shape alone.
+/// How a mesh collides, with the parameters of that mode: for all shapes that refer to a mesh, or
+/// for one such shape.
 struct MeshModeDescription {
   std::optional<MeshMode> mode;
   std::optional<double> concavity;
@@ -79,8 +79,8 @@ struct EnumNames<UpAxis> {
       {{"y", UpAxis::y}, {"z", UpAxis::z}, {"x", UpAxis::x}}};
 };
 
-/// A closed surface about a mesh that takes its place, for meshes that are open or broken; what is
-/// not given follows from the size of the mesh (geometry/wrap/wrap_mesh.hpp).
+/// A closed surface that replaces a mesh that is open or broken; values not given are derived from
+/// the size of the mesh (geometry/wrap/wrap_mesh.hpp).
 struct WrapDescription {
   std::optional<double> gap;
   std::optional<double> offset;
@@ -151,7 +151,7 @@ struct MeshDescription {
   }
 };
 
-/// A shape that is all said by its own numbers: number `place` of all_shapes(), which names them.
+/// A shape defined by its own numbers only: entry `place` of all_shapes(), which names them.
 template <size_t place>
 struct ListedShapeDescription {
   ShapeDef def = fresh();
@@ -176,7 +176,7 @@ struct ListedShapeDescription {
     def.type = entry().type;
     return def;
   }
-  /// Files give full extents where definitions hold halves.
+  /// Files give full extents where definitions have halves.
   template <class Visitor, class Value>
   static void show(Visitor& v, Value& held, const ShapeParameter& p) {
     std::remove_const_t<Value> shown = held / p.factor;
@@ -216,7 +216,7 @@ struct TriangleMeshShapeDescription {
   }
 };
 
-/// A mesh that collides as its declaration says, or in a way of its own.
+/// A mesh that collides as its declaration says, or in a mode of its own.
 struct MeshShapeDescription {
   static constexpr std::string_view type_name = "mesh";
   std::string mesh;
@@ -258,7 +258,7 @@ struct ShapeDescription {
   }
 };
 
-/// A shape that is drawn and does not collide, placed in the body frame.
+/// A shape that is drawn but does not collide, placed in the body frame.
 struct DrawnDescription {
   ShapeKind kind;
   Placement placement;

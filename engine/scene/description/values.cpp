@@ -24,7 +24,7 @@ double linear_channel(double s) {
 double shown_channel(float linear) {
   const double c = double(linear);
   const double shown = c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
-  // A byte that was made linear in single precision comes back as that byte.
+  // A byte converted to linear single precision is converted back to the same byte.
   const double byte = std::floor(shown * 255 + 0.5);
   return std::abs(shown * 255 - byte) < 0.01 ? byte / 255 : shown;
 }

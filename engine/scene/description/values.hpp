@@ -14,7 +14,7 @@
 
 namespace tumble {
 
-/// Things that the file names by their keys, in the order of the file.
+/// Objects that the file names by their keys, in the order of the file.
 template <class T>
 struct NamedList {
   struct Item {
@@ -40,7 +40,7 @@ struct NamedList {
   size_t size() const { return items.size(); }
 };
 
-/// How files name an alternative of a variant: its `type_name`, a constant or a function.
+/// The name of an alternative of a variant in files: its `type_name`, a constant or a function.
 template <class T>
 std::string_view type_name_of() {
   if constexpr (requires { T::type_name(); })
@@ -49,20 +49,20 @@ std::string_view type_name_of() {
     return T::type_name;
 }
 
-/// sRGB, each part in 0..1, as people write colours.
+/// A colour in sRGB, components in 0..1, as in files.
 struct Colour {
   double r = 0.8, g = 0.8, b = 0.8;
-  /// Linear RGB, as light is computed with.
+  /// Linear RGB, as used for shading.
   Vec3f linear() const;
   static Colour from_linear(const Vec3f& rgb);
 };
-/// "#rrggbb", "#rgb" or a name of the palette.
+/// Parses "#rrggbb", "#rgb" or a named colour.
 std::optional<Colour> colour_from_text(std::string_view text);
 /// Names of the built-in colours.
 const std::vector<std::pair<std::string_view, Colour>>& named_colours();
 std::vector<std::string> palette_names();
 
-/// The course of a number times a unit; null where it stays the same.
+/// A number over time, times a unit; null if it is constant.
 std::shared_ptr<const TimeCourse> course_of(const Varying& number, double unit = 1);
 
 /// Names of an enumeration's values in scene files; specialise `values`.
@@ -76,7 +76,7 @@ std::string_view enum_name(E value) {
   return {};
 }
 
-/// What a struct's own check finds: the member concerned and what is wrong.
+/// Receives the faults found by a struct's own check: the member concerned and the message.
 class Complaints {
  public:
   virtual ~Complaints() = default;

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Where a camera is at a moment of its path.
+/// A key of a camera's path.
 struct CameraKeyDescription {
   double time = 0;         ///< [s]
   Vec3 position{6, 4, 8};  ///< [m]
@@ -116,7 +116,7 @@ struct SkyDescription {
   }
 };
 
-/// The ground that is drawn; what bodies fall on is a body of shape half_space.
+/// The ground as drawn; a ground that bodies fall on is a body of shape half_space.
 struct GroundDescription {
   bool visible = true;
   double height = 0;  ///< [m]

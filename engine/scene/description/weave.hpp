@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Which nodes of a sheet are held. Row 0 is the top, column 0 the left.
+/// Which nodes of a sheet are fixed. Row 0 is the top, column 0 the left.
 enum class PinPlace : uint8_t {
   node,
   top,
@@ -35,7 +35,7 @@ struct EnumNames<PinPlace> {
        {"bottom_right", PinPlace::bottom_right}}};
 };
 
-/// Nodes of a sheet that stay where they are in the world, or on a body.
+/// Nodes of a sheet that are fixed in the world, or on a body.
 struct PinDescription {
   PinPlace at = PinPlace::node;
   int row = 0, column = 0;
@@ -55,7 +55,7 @@ struct PinDescription {
   }
 };
 
-/// What all weaves say of their springs.
+/// Parameters of the springs, common to all weaves (cloths, nets, ropes).
 struct WeaveSpringsDescription {
   double damping_ratio = 0.1;
   double break_strain = 0;
@@ -183,7 +183,7 @@ struct NetDescription {
   }
 };
 
-/// A place that a rope goes through; a body with copies stands for all of them in their order.
+/// A point on a rope's path; a body with copies stands for all of them in their order.
 struct RopePlaceDescription {
   AnchorDescription anchor;
   bool loose = false;

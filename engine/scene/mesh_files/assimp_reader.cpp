@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 // Only the library's file readers are used, none of its post-processing: some of those steps abort
-// or read out of bounds on scenes that damaged files give. What comes back is trusted in nothing.
+// or read out of bounds on scenes from damaged files. The result is checked completely.
 namespace tumble {
 namespace {
 
@@ -29,7 +29,7 @@ Mat4 matrix(const aiMatrix4x4& m) {
   return out;
 }
 
-/// Adds a mesh in the place that `m` gives it; false when the file holds too much.
+/// Adds a mesh with the transform `m`; false if the file contains too much.
 bool add_mesh(const aiMesh& mesh, const std::string& name, const Mat4& m, PolygonFile& out) {
   if (!mesh.mVertices || !mesh.mFaces || mesh.mNumVertices == 0) return true;
   if (out.vertices.size() + mesh.mNumVertices > most_mesh_elements) return false;
@@ -52,7 +52,7 @@ bool add_mesh(const aiMesh& mesh, const std::string& name, const Mat4& m, Polygo
   return true;
 }
 
-/// Meshes as the nodes place them; without nodes that place any, as they are.
+/// Adds the meshes as placed by the nodes; if no node places any, the meshes themselves.
 bool add_scene(const aiScene& scene, PolygonFile& out) {
   struct Place {
     const aiNode* node;
@@ -86,7 +86,7 @@ bool add_scene(const aiScene& scene, PolygonFile& out) {
   return true;
 }
 
-/// Reads in this process; lack of memory is thrown.
+/// Reads in this process; throws if there is not enough memory.
 Result<PolygonFile> read_here(const std::filesystem::path& file) {
   try {
     Assimp::Importer importer;
@@ -116,14 +116,15 @@ Result<PolygonFile> read_with_assimp(const std::filesystem::path& file) {
   return read_limited(file, read_here, reading_limits(std::filesystem::file_size(file, error)));
 }
 
-/// The library looks for the end of the JSON object without bound where none begins.
+/// If no JSON object begins there, the library searches for its end without bound; so that is
+/// checked first.
 Result<PolygonFile> read_gltf(const std::filesystem::path& file) {
   if (const Status ok = check_mesh_file(file); !ok) return ok.error();
   std::ifstream in(file, std::ios::binary);
   std::string start(64, '\0');
   in.read(start.data(), std::streamsize(start.size()));
   start.resize(size_t(in.gcount()));
-  if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);  // the mark of UTF-8
+  if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);  // UTF-8 byte order mark
   const size_t first = start.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || (start[first] != '{' && !start.starts_with("glTF")))
     return Error{ErrorCode::parse, "is no glTF file: it starts neither with '{' nor with 'glTF'",

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-// The library reads Collada, but believes every count: a false one makes it read out of bounds or
+// The library reads Collada, but trusts every count: a wrong one makes it read out of bounds or
 // fill memory for minutes. So the counts are checked first, tag by tag.
 namespace tumble {
 namespace {
 
-/// The value of attribute `name` in the text of a tag; nothing when it is not there.
+/// The value of attribute `name` in the text of a tag; empty if it is missing.
 std::optional<uint64_t> number_attribute(std::string_view tag, std::string_view name) {
   for (size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
     const bool starts = at > 0 && (tag[at - 1] == ' ' || tag[at - 1] == '\t' ||
@@ -30,7 +30,7 @@ std::optional<uint64_t> number_attribute(std::string_view tag, std::string_view 
   return std::nullopt;
 }
 
-/// How many values, separated by white space, a text holds.
+/// The number of values, separated by white space, in a text.
 uint64_t count_values(std::string_view text) {
   uint64_t n = 0;
   bool inside = false;
@@ -49,9 +49,9 @@ std::string_view tag_name(std::string_view tag) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-/// What is wrong with the counts of a Collada text; empty when nothing is.
+/// The fault in the counts of a Collada text; empty if there is none.
 std::string count_fault(std::string_view xml) {
-  uint64_t values = 0;  // in the array that was read last
+  uint64_t values = 0;  // number of values in the last array read
   for (size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {
     const size_t end = xml.find('>', at);
     if (end == std::string_view::npos) return "a tag has no end";

@@ -31,12 +31,12 @@
 namespace tumble {
 namespace {
 
-/// The first byte of what the child sends.
+/// The first byte that the child process sends.
 enum class Answer : uint8_t { mesh, fault, no_memory };
 
 // -- in the child ---------------------------------------------------------------------------------
 
-/// Bytes of address space that this process has taken.
+/// Size of the address space of this process [bytes].
 uint64_t address_space() {
   uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -90,7 +90,7 @@ void send_mesh(int to, const PolygonFile& m) {
                        Result<PolygonFile> (*read)(const std::filesystem::path&),
                        const ReadingLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // The program's own handlers are not for this process: what ends it, ends it.
+  // The program's own signal handlers must not run in this process.
   for (const int s : {SIGINT, SIGTERM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGPIPE})
     std::signal(s, SIG_DFL);
   limit(RLIMIT_CORE, 0);
@@ -114,7 +114,7 @@ void send_mesh(int to, const PolygonFile& m) {
 
 // -- in the parent --------------------------------------------------------------------------------
 
-/// Takes what the child sends until a moment; false at its end or when time is up.
+/// Receives what the child sends until a deadline; false at the end of the data or when time is up.
 class Receiver {
  public:
   Receiver(int from, double seconds)
@@ -181,7 +181,7 @@ bool take_mesh(Receiver& in, PolygonFile& m) {
   return true;
 }
 
-/// Why the child sent no whole answer.
+/// The error for a child process that sent no complete answer.
 Error silence(const std::filesystem::path& file, int status, bool late,
               const ReadingLimits& limits) {
   constexpr const char* cure = "the file is damaged, or not of the type that its name says";

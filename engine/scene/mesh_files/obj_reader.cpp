@@ -9,24 +9,24 @@
 #include <fmt/format.h>
 
 // Object files of Alias|Wavefront ("Advanced Visualizer" manual, appendix B1): positions `v`, faces
-// `f`, and `o`, `g` and `usemtl`, at which parts begin. All other statements are left out. Numbers
-// are doubles with all their digits.
+// `f`, and `o`, `g` and `usemtl`, which begin parts. All other statements are ignored. Numbers are
+// read as doubles with all their digits.
 namespace tumble {
 namespace {
 
 constexpr size_t most_obj_parts = 1'000'000;
 
-/// The statements of a file, one after the other: lines without comments, with those that they go
-/// on in after a backslash.
+/// The statements of a file in turn: lines without comments, joined with their continuations after
+/// a backslash.
 class ObjStatements {
  public:
   explicit ObjStatements(std::string& text) : text_(text) {
-    if (text.starts_with("\xef\xbb\xbf")) at_ = 3;  // the mark of UTF-8
+    if (text.starts_with("\xef\xbb\xbf")) at_ = 3;  // UTF-8 byte order mark
   }
 
-  size_t line() const { return line_; }  ///< of the last statement, where it begins
+  size_t line() const { return line_; }  ///< line where the last statement begins
 
-  /// False at the end.
+  /// Reads the next statement; false at the end.
   bool next(std::string_view& statement) {
     while (at_ < text_.size()) {
       const size_t start = at_;
@@ -46,7 +46,7 @@ class ObjStatements {
   }
 
  private:
-  /// Goes to the next line, whichever way this one ends, and gives where it does.
+  /// Goes to the next line, for any kind of line end, and returns where this line ends.
   size_t pass_line() {
     const size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
     at_ = std::min(end + (text_.compare(end, 2, "\r\n") == 0 ? 2 : 1), text_.size());
@@ -62,7 +62,7 @@ class ObjStatements {
   size_t at_ = 0, lines_ = 0, line_ = 0;
 };
 
-/// Takes one word off the front; empty at the end.
+/// Removes the first word from the text and returns it; empty at the end.
 std::string_view take_word(std::string_view& rest) {
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
   const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
@@ -70,7 +70,7 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
-/// Whether all of a word is a number that T holds.
+/// Whether the whole word is a number that T can represent.
 template <class T>
 bool is_number(std::string_view word, T& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -114,7 +114,7 @@ class ObjReader {
                     most_mesh_elements, most_obj_parts));
   }
 
-  /// `x y z`, `x y z w`, or a position with colours, which are left out.
+  /// `x y z`, `x y z w`, or a position with colours, which are ignored.
   Status add_vertex(std::string_view rest) {
     std::array<double, 4> x{0, 0, 0, 1};
     for (size_t k = 0; k < 4; ++k) {
@@ -150,7 +150,7 @@ class ObjReader {
         last_corner_line_ = statements_.line();
       }
       if (all_.corners.size() == 4 * most_mesh_elements) return too_many();
-      all_.corners.push_back(uint32_t(v - 1));  // one too large for that is refused at the end
+      all_.corners.push_back(uint32_t(v - 1));  // an index that is too large is rejected at the end
     }
     if (all_.corners.size() - first < 3) {  // a point or a line
       all_.corners.resize(first);
@@ -170,7 +170,7 @@ class ObjReader {
     what = rest;
   }
 
-  /// The same with vertices of each part's own, in the order in which its faces name them.
+  /// Gives each part vertices of its own, in the order in which its faces refer to them.
   Result<PolygonFile> separated() const {
     PolygonFile out;
     constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
@@ -200,8 +200,9 @@ class ObjReader {
   ObjStatements statements_;
   std::string name_, material_;
   bool part_begins_ = true;
-  PolygonFile all_;  ///< all vertices of the file, and parts that refer to any
-  size_t last_corner_ = 0, last_corner_line_ = 0;  ///< the largest, where it first stands
+  PolygonFile all_;  ///< all vertices of the file; parts may refer to any of them
+  /// The largest index, and the line of its first use.
+  size_t last_corner_ = 0, last_corner_line_ = 0;
 };
 
 }  // namespace

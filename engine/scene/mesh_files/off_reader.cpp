@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 // The object file format of Geomview: "OFF", counts, a line per vertex, a line per face. Colours
-// and normals that follow on a line are left out.
+// and normals at the end of a line are ignored.
 namespace tumble {
 namespace {
 
@@ -17,7 +17,7 @@ class Lines {
   size_t left() const { return rest_.size(); }
   int number() const { return number_; }
 
-  /// Next line that holds something besides a comment; false at the end.
+  /// The next line that contains something besides a comment; false at the end.
   bool next(std::string_view& line) {
     while (!rest_.empty()) {
       const size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -38,8 +38,8 @@ class Lines {
   int number_ = 0;
 };
 
-/// Takes one number off the front of a line; not the first digits of a word such as 1e308, where
-/// an integer is asked for.
+/// Removes the first number from a line. If an integer is expected, a word such as 1e308 is
+/// rejected, instead of taking its first digits.
 template <class T>
 bool take(std::string_view& line, T& value) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
@@ -74,7 +74,7 @@ Result<PolygonFile> read_off(const std::filesystem::path& file) {
   }
   uint64_t vertices = 0, faces = 0;
   if (!take(line, vertices) || !take(line, faces)) return fault("the counts are no numbers");
-  // A vertex takes six bytes at least, a face four.
+  // A vertex takes at least six bytes, a face four.
   if (vertices > most_mesh_elements || faces > most_mesh_elements ||
       vertices > lines.left() / 6 + 1 || faces > lines.left() / 4 + 1) {
     return fault(fmt::format("{} vertices and {} faces are declared, but only {} bytes follow",

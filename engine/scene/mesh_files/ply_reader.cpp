@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-// The Stanford polygon format (Turk 1994): a text header that declares elements with their
-// properties, then their values as text or binary. Every count is checked against the bytes that
-// are left before anything is allocated for it.
+// The Stanford polygon format (Turk 1994): a text header that declares elements and their
+// properties, then their values as text or binary. Every count is checked against the remaining
+// bytes before anything is allocated for it.
 namespace tumble {
 namespace {
 
@@ -52,14 +52,14 @@ struct Element {
 
 enum class Encoding { text, little, big };
 
-/// Reads numbers one after the other, text or binary; fails softly at the end.
+/// Reads numbers in turn, text or binary; after the end it returns zeros and reports that.
 class Values {
  public:
   Values(std::string_view bytes, Encoding encoding) : rest_(bytes), encoding_(encoding) {}
 
   bool failed() const { return failed_; }
   size_t left() const { return rest_.size(); }
-  /// The fewest bytes that a value can take.
+  /// The least number of bytes of a value.
   size_t least(Type t) const { return encoding_ == Encoding::text ? 1 : size_of(t); }
 
   double next(Type t) { return encoding_ == Encoding::text ? text() : binary(t); }
@@ -78,7 +78,7 @@ class Values {
     const std::string_view token = rest_.substr(0, size_t(end - rest_.data()));
     rest_.remove_prefix(token.size());
     if (error == std::errc{}) return x;
-    // Out of range: too small to matter, or too large, which is refused later.
+    // Out of range: either too small to matter, or too large, which is rejected later.
     const bool small = token.find("e-") != token.npos || token.find("E-") != token.npos;
     return small ? 0 : std::numeric_limits<double>::infinity();
   }
@@ -142,7 +142,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
-/// One line of the header; the text of what is wrong with it, or nothing.
+/// Parses one line of the header; returns the message of a fault, or nothing.
 std::string take_line(Header& header, const std::vector<std::string_view>& w) {
   if (w.empty() || w[0] == "comment" || w[0] == "obj_info" || w[0] == "ply") return {};
   if (w[0] == "format" && w.size() >= 2) {
@@ -179,7 +179,7 @@ std::string take_line(Header& header, const std::vector<std::string_view>& w) {
   return fmt::format("a header line starts with '{}'", w[0]);
 }
 
-/// Reads one element into `out`; the text of what is wrong, or nothing.
+/// Reads one element into `out`; returns the message of a fault, or nothing.
 std::string take_element(const Element& e, Values& values, PolygonFile& out) {
   size_t least = 0;
   for (const Property& p : e.properties) least += values.least(p.length.value_or(p.type));

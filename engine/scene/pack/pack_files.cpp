@@ -25,8 +25,8 @@ Result<std::string> contents_of(const fs::path& file) {
   return std::move(text).str();
 }
 
-/// Files beside a glTF file in which it keeps its numbers. Pictures are not needed: nothing
-/// collides with them, and nothing draws them.
+/// Files beside a glTF file that contain its binary data. Images are not packed, since they affect
+/// neither collision nor drawing.
 std::set<std::string> files_named_by(const fs::path& file, const std::string& bytes) {
   std::set<std::string> out;
   if (file.extension() != ".gltf" && file.extension() != ".GLTF") return out;
@@ -38,7 +38,7 @@ std::set<std::string> files_named_by(const fs::path& file, const std::string& by
   return out;
 }
 
-/// Whether a path leads out of the folder that it is relative to.
+/// Whether a relative path leads out of its base folder.
 bool leads_out(const fs::path& relative) {
   return relative.is_absolute() || relative.empty() ||
          std::ranges::find(relative, fs::path("..")) != relative.end();
@@ -72,13 +72,13 @@ class MeshFiles {
   }
 
   std::vector<PackFile> files;
-  std::map<std::string, std::string> place_of;  ///< by the name of the mesh
+  std::map<std::string, std::string> place_of;  ///< by name of the mesh
 
  private:
   std::map<fs::path, std::string> places_;
 };
 
-/// The text of the scene's file with other paths of its meshes.
+/// The text of the scene's file with new paths of its meshes.
 std::string text_with_places(std::string text, const std::map<std::string, std::string>& places) {
   JsonTextEdit edit(std::move(text));
   for (const auto& [name, place] : places) {
@@ -91,7 +91,8 @@ std::string text_with_places(std::string text, const std::map<std::string, std::
   return edit.text();
 }
 
-/// Its text can be kept: it is a scene file, and its bodies are all in it.
+/// Whether the text can be packed unchanged: it is a scene file that contains all its bodies
+/// itself.
 bool stands_alone(const fs::path& file, const std::string& text) {
   if (file.extension() != ".json" && file.extension() != ".jsonc") return false;
   FaultList ignored;

@@ -12,7 +12,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr uint64_t free_bytes = 16 << 20;  // that no ratio is asked of
+constexpr uint64_t free_bytes = 16 << 20;  // size for which no ratio is checked
 
 struct CloseArchive {
   void operator()(void* archive) const { unzClose(archive); }
@@ -29,7 +29,7 @@ Error broken(const fs::path& file, const std::string& entry) {
                 "get the file anew, or pack the scene again");
 }
 
-/// Why a name is no plain path below a folder; "" where it is one.
+/// Why a name is not a plain relative path below a folder; "" if it is.
 std::string bad_name(const std::string& name) {
   if (name.empty() || name.size() > 400) return "its name is empty or too long";
   for (const char c : name)
@@ -48,7 +48,8 @@ std::string bad_name(const std::string& name) {
   return {};
 }
 
-/// A link, a device or a pipe; what other systems than Unix have written has no such type.
+/// Whether an entry is a link, a device or a pipe; archives written on systems other than Unix have
+/// no such type.
 bool is_special(const unz_file_info64& info) {
   constexpr uLong type_mask = 0170000, regular = 0100000, folder = 0040000;
   const uLong type = info.external_fa >> 16 & type_mask;
@@ -120,7 +121,7 @@ class PackReader {
       if (total_ > allowed()) return bomb();
       out.bytes.append(buffer, size_t(got));
     }
-    // Closing says whether the sum of check fits.
+    // Closing reports whether the checksum matches.
     if (unzCloseCurrentFile(archive_.get()) != UNZ_OK || got < 0 || out.bytes.size() != claimed)
       return broken(file_, shown(name));
     return {};

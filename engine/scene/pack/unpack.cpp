@@ -12,7 +12,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-/// The one scene at the top of a pack.
+/// The only scene file at the top level of a pack.
 Result<std::string> scene_in(const fs::path& file, const std::vector<PackFile>& files) {
   std::string found;
   for (const PackFile& f : files) {
@@ -41,8 +41,7 @@ Status write_all(const fs::path& folder, const std::vector<PackFile>& files) {
   return {};
 }
 
-/// Whether a folder has all files with their contents: somebody may have cleared some away, or
-/// changed them.
+/// Whether a folder has all files with the right contents, which may have been deleted or changed.
 bool holds(const fs::path& folder, const std::vector<PackFile>& files) {
   return std::ranges::all_of(files, [&](const PackFile& f) {
     std::error_code error;
@@ -80,8 +79,8 @@ Result<fs::path> unpack(const fs::path& file) {
   const fs::path folder = pack_folder() / hash_text(hash);
   std::error_code error;
   if (holds(folder, *files)) return folder / *scene;
-  // Written beside and put in its place whole: another program may unpack the same one now. What
-  // lacks something there goes out of the way first.
+  // Written to a temporary folder and renamed as a whole, since another program may unpack the same
+  // pack at the same time. An incomplete folder is moved away first.
   fs::path beside = folder, damaged = folder;
   beside += fmt::format(".{}", getpid());
   damaged += fmt::format(".{}.damaged", getpid());

@@ -16,7 +16,7 @@ struct CloseZip {
 
 bool add(void* archive, const PackFile& file) {
   zip_fileinfo info{};
-  info.tmz_date.tm_year = 1980;  // no time of day: the same files make the same bytes
+  info.tmz_date.tm_year = 1980;  // a constant time, so that the same files give the same bytes
   info.tmz_date.tm_mday = 1;
   info.external_fa = uLong(0100644) << 16;
   constexpr uLong made_by_unix = 3 << 8 | 20;

@@ -27,7 +27,7 @@ std::vector<fs::path> folders_of(const char* variable) {
   return out;
 }
 
-/// Where a package may be, in the order in which it is looked for.
+/// Folders where a package may be, in the order of the search.
 std::vector<fs::path> package_folders(const std::string& package, const fs::path& robot_file,
                                       const PackageFolders& packages) {
   std::vector<fs::path> out;
@@ -76,7 +76,7 @@ std::optional<fs::path> find_asset(const std::string& name, const fs::path& robo
     return std::nullopt;
   }
   const std::string local = name.starts_with("file://") ? name.substr(7) : name;
-  const fs::path file = robot_file.parent_path() / local;  // an absolute path stays as it is
+  const fs::path file = robot_file.parent_path() / local;  // an absolute path is unchanged
   if (is_plain_file(file)) return file;
   log.warn(at, fmt::format("there is no file '{}'", file.string()));
   return std::nullopt;

@@ -9,14 +9,15 @@
 namespace tumble {
 namespace {
 
-/// Numbers beyond this are taken for errors of the file; they would not fit what is made of them.
+/// Larger numbers are considered errors of the file, since results computed from them might
+/// overflow.
 constexpr double largest = 1e12;
 
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/// Numbers with space between them, or what is wrong.
+/// Parses numbers separated by space; returns the message of a fault, or nothing.
 std::optional<std::string> read_numbers(std::string_view text, std::vector<double>& out) {
   size_t at = 0;
   while (true) {

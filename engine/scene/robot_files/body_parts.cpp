@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// Looks that robots have unless their file says others.
+/// Colour of robots whose file gives none.
 constexpr Colour robot_grey{0.72, 0.73, 0.75};
 
 std::string mesh_named(const RobotGeometry& g, const std::string& prefix,
@@ -43,7 +43,7 @@ bool same_geometry(const RobotGeometry& a, const RobotGeometry& b) {
          a.mesh == b.mesh;
 }
 
-/// Whether what is drawn is what collides anyway, in one colour.
+/// Whether the drawn geometry is equal to the colliding one, in one colour.
 bool drawn_as_it_collides(const RobotBody& body) {
   const auto one_colour = [&](const RobotGeometry& g) {
     const auto &a = g.colour, &b = body.drawn.front().colour;

@@ -41,12 +41,12 @@ RobotsOfScene read_robots(const JsonNode& root, const std::string& file, FaultLi
     }
   };
   validate_object(struct_ref(out), {}, sink);
-  for (const Fault& f : found.sorted())  // those of parameters are found again with the scene
+  for (const Fault& f : found.sorted())  // faults of parameters are reported again with the scene
     if (f.path.starts_with("robots")) faults.add(f);
   return out;
 }
 
-/// The file that a robot names: from the scene's folder, or among what is shipped.
+/// Path of the file that a robot names: relative to the scene's folder, or among the shipped files.
 Result<fs::path> robot_file(const fs::path& folder, const std::string& given) {
   std::error_code error;
   const fs::path here = folder / given;
@@ -59,7 +59,7 @@ Result<fs::path> robot_file(const fs::path& folder, const std::string& given) {
 }
 
 RobotOptions options_of(const std::string& name, int number, const RobotDescription& d) {
-  constexpr int first_group = 1'000'000;  // away from those that people write
+  constexpr int first_group = 1'000'000;  // apart from numbers that scenes use
   RobotOptions out;
   out.prefix = d.prefix.value_or(name + "_");
   out.pose = d.placement.pose();
@@ -115,7 +115,7 @@ class Expander {
       to->kind = JsonNode::Kind::object;
       to->line = root_.line;
     }
-    if (!to->is(JsonNode::Kind::object)) return;  // which is a fault of the scene
+    if (!to->is(JsonNode::Kind::object)) return;  // reported as a fault of the scene
     for (size_t i = 0; i < from.items.size(); ++i) {
       const std::string path = std::string(list) + "." + from.keys[i];
       const auto own = lines.find(path);

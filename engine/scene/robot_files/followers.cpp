@@ -21,7 +21,7 @@ JointsByName joints_of(RobotModel& model) {
   return out;
 }
 
-/// Lets go of what cannot follow: `why` ends the sentence.
+/// Removes the coupling of a joint that cannot follow; `why` ends the sentence of the warning.
 void let_go(RobotJoint& joint, const std::string& why, RobotLog& log) {
   log.warn(joint.at, fmt::format("joint '{}' does not follow '{}', it moves by itself: {}",
                                  joint.name, joint.mimic->joint, why));
@@ -40,7 +40,7 @@ void check_one(RobotJoint& joint, const JointsByName& all, RobotLog& log) {
       return let_go(joint, "a ball joint has no coordinate of its own", log);
 }
 
-/// The coordinate at the start, which that of its leader gives; true where the leaders end.
+/// Sets the coordinate at the start from that of its leader; true if the chain of leaders ends.
 bool set_start_of(RobotJoint& joint, const JointsByName& all, size_t depth) {
   if (!joint.mimic) return true;
   if (depth > all.size()) return false;
@@ -50,7 +50,7 @@ bool set_start_of(RobotJoint& joint, const JointsByName& all, size_t depth) {
   return true;
 }
 
-/// What acts along a coordinate of one of the joints, which has it.
+/// The drive of the joint that has this coordinate.
 DriveDescription& drive_at(const RobotFollowers::Place& place,
                            NamedList<JointDescription>& joints) {
   JointDescription& joint = std::ranges::find(joints.items, place.joint, [](const auto& item) {

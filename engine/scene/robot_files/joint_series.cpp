@@ -27,7 +27,7 @@ bool is_idle(const RobotJoint& j) {
          j.friction == 0 && j.armature == 0 && j.stiffness == 0;
 }
 
-/// Where two lines at right angles cross, if they do.
+/// The intersection of two perpendicular lines, if they intersect.
 std::optional<Vec3> crossing(const RobotJoint& a, const RobotJoint& b) {
   const Vec3 apart = b.anchor - a.anchor, across = a.axis.cross(b.axis);
   if (std::fabs(apart.dot(across)) > robot_tolerances::same_place) return std::nullopt;

@@ -14,9 +14,9 @@
 namespace tumble {
 namespace {
 
-constexpr double water = 1000, densest = 22590;  // [kg/m3], the latter of osmium
+constexpr double water = 1000, densest = 22590;  // [kg/m3], of water and of osmium
 
-/// Of all that collides, or is drawn, at density 1; mass 0 where there is nothing.
+/// Mass properties of the colliding, or else drawn, geometry at density 1; mass 0 if there is none.
 MassProperties geometry_mass(const RobotLink& link) {
   std::vector<MassProperties> parts;
   for (const RobotGeometry& g : link.collides.empty() ? link.drawn : link.collides)
@@ -24,14 +24,14 @@ MassProperties geometry_mass(const RobotLink& link) {
   return compound(parts);
 }
 
-/// A ball resists turning least of all bodies of its mass and density.
+/// The least moment of inertia for a mass and density, that of a ball [kg m2].
 double least_inertia(double mass, double density) {
   const double radius = std::cbrt(0.75 * mass / (density * std::numbers::pi));
   return 0.4 * mass * radius * radius;
 }
 
-/// Inertia so small that no matter has it: links that hang on such a one at an arm swing it about
-/// with forces that neither stepper resolves.
+/// Warns of an inertia smaller than any material gives: links attached to such a body with a lever
+/// arm accelerate it so much that neither stepper resolves the motion.
 void look_at_density(const RobotLink& link, const Vec3& moments, const GivenInertia& given,
                      RobotLog& log) {
   const double largest = moments.maxCoeff();

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// Why elements of bodies that Tumble knows are not followed.
+/// Why an element that is known but not supported is ignored.
 std::string reason_not_read(const std::string& element) {
   if (element == "site") return "<site> is not followed: a marked place without mechanics";
   if (element == "camera" || element == "light")
@@ -30,7 +30,7 @@ class MjcfBodies {
     for (const RobotLink& link : out_.links) names_.insert(link.name);
   }
 
-  /// The children of a body, or of the world, in its frame.
+  /// Reads the children of a body, or of the world, in its frame.
   void children(const XmlElement& e, size_t link, const std::string& body_class, const Pose& at) {
     for (const XmlElement& child : e.children) {
       if (child.name == "geom")
@@ -169,7 +169,7 @@ class MjcfBodies {
     link.joints.push_back(std::move(joint));
   }
 
-  /// Range, springs and friction.
+  /// Reads range, springs and friction.
   void motion(Attributes& a, size_t type, RobotJoint& joint) {
     const double unit = type == 1 ? 1 : s_.angle;
     const auto range = a.numbers("range", 2, 2);

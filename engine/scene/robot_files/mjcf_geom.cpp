@@ -13,7 +13,7 @@ namespace geom_type {
 enum : size_t { sphere, plane, hfield, capsule, ellipsoid, cylinder, box, mesh };
 }  // namespace geom_type
 
-/// Numbers of `size` that a type needs, `fromto` apart.
+/// How many numbers of `size` a type needs, without `fromto`.
 size_t sizes_of(size_t type, bool between) {
   if (type == geom_type::sphere) return 1;
   if (type == geom_type::capsule || type == geom_type::cylinder) return between ? 1 : 2;
@@ -21,7 +21,7 @@ size_t sizes_of(size_t type, bool between) {
   return 0;
 }
 
-/// `fromto`: the ends of the z axis. Gives half the length.
+/// Places a shape by `fromto`, the ends of its z axis; returns half the length.
 double place_between(const std::vector<double>& ends, Pose& pose, Attributes& a) {
   const Vec3 from(ends[0], ends[1], ends[2]), to(ends[3], ends[4], ends[5]);
   const Vec3 along = from - to;
@@ -34,7 +34,7 @@ double place_between(const std::vector<double>& ends, Pose& pose, Attributes& a)
   return 0.5 * along.norm();
 }
 
-/// The shape of a primitive; `half`: half its length from `fromto`.
+/// Makes the shape of a primitive; `half`: half its length from `fromto`.
 void make_primitive(size_t type, std::vector<double> size, const std::optional<double>& half,
                     Attributes& a, RobotGeometry& out) {
   const size_t needed = sizes_of(type, half.has_value());
@@ -98,7 +98,7 @@ void read_look(Attributes& a, const MjcfSettings& settings, MjcfGeom& out, Robot
   if (!out.geometry.colour) out.geometry.colour = Colour{0.5, 0.5, 0.5};
   double group = 0;
   a.read("group", group);
-  out.drawn = alpha > 0 && group < 3;  // those that its own viewer shows
+  out.drawn = alpha > 0 && group < 3;  // groups that MuJoCo's viewer shows by default
   if (alpha > 0 && alpha < 1)
     log.warn(a.at(), "<geom>: is drawn opaque, though its rgba says that one sees through it");
 }

@@ -12,7 +12,8 @@
 namespace tumble {
 namespace {
 
-/// Puts what <include> names in its place. Files are relative to the main one.
+/// Replaces <include> elements by the content of their files, whose paths are relative to the main
+/// file.
 void include_files(XmlElement& e, const std::filesystem::path& main, int depth, RobotLog& log) {
   constexpr int deepest = 8;
   std::vector<XmlElement> children;
@@ -115,7 +116,7 @@ class MjcfRest {
     if (active && log_.ok()) out_.ties.push_back(std::move(tie));
   }
 
-  /// y - y_ref = a_0 + a_1 (x - x_ref), with y of joint1 and x of joint2.
+  /// Reads a coupling y - y_ref = a_0 + a_1 (x - x_ref), with y of joint1 and x of joint2.
   void follow(const XmlElement& e, Attributes& a, bool active) {
     RobotJoint* y = find_joint(a.name_of("joint1"), e.at);
     const auto other = a.text("joint2");
@@ -166,7 +167,7 @@ class MjcfRest {
     return nullptr;
   }
 
-  /// A range that is given and in force.
+  /// A range that is given and enabled.
   std::vector<double> range(Attributes& a, const char* name, const char* switched) {
     const auto out = a.numbers(name, 2, 2);
     const size_t limited = a.word(switched, {"auto", "true", "false", "1", "0"});
@@ -174,7 +175,8 @@ class MjcfRest {
     return on ? out : std::vector<double>{};
   }
 
-  /// At control 0: a position servo holds 0, a velocity servo brakes, a motor does nothing.
+  /// Sets the actuator's state at control 0: a position servo holds 0, a velocity servo brakes, a
+  /// motor does nothing.
   void drive(Attributes& a, const std::string& kind, RobotJoint& joint) {
     if (joint.kind == RobotJoint::Kind::ball) {
       a.skip({"gear", "ctrlrange", "ctrllimited", "forcerange", "forcelimited", "kp", "kv"});
@@ -212,7 +214,7 @@ class MjcfRest {
       joint.actuator = made;
     } else if (joint.actuator->kind != made.kind && made.kind != RobotActuator::Kind::force &&
                joint.actuator->kind != RobotActuator::Kind::force) {
-      // A servo of position and one of velocity are one with both gains.
+      // A position servo and a velocity servo together are one actuator with both gains.
       const double damping = joint.actuator->damping + made.damping;
       if (made.kind == RobotActuator::Kind::position) joint.actuator = made;
       joint.actuator->damping = damping;

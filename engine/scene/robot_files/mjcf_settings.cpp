@@ -14,7 +14,7 @@ namespace {
 
 constexpr double mjcf_degree = std::numbers::pi / 180;
 
-/// Turns about x, y, z in the order of `sequence`; capital letters: about axes that stay.
+/// Rotations about x, y, z in the order of `sequence`; capital letters mean fixed axes.
 Quat euler_of(const std::string& sequence, const std::vector<double>& angles, double unit) {
   Quat out = Quat::Identity();
   for (size_t k = 0; k < 3; ++k) {

@@ -8,7 +8,7 @@ namespace tumble {
 
 /// A mesh of <asset>.
 struct MjcfMesh {
-  std::filesystem::path file;  ///< empty: it was not found, which has been said
+  std::filesystem::path file;  ///< empty: it was not found, and that was reported
   Vec3 scale{1, 1, 1};
 };
 struct MjcfMaterial {
@@ -16,10 +16,10 @@ struct MjcfMaterial {
   double alpha = 1;
 };
 
-/// From where a body's mass is taken.
+/// What a body's mass is computed from.
 enum class MjcfInertia { automatic, geoms, inertial };
 
-/// What the elements of an MJCF file share: <compiler>, <default>, <asset>.
+/// Settings for all elements of an MJCF file: <compiler>, <default>, <asset>.
 struct MjcfSettings {
   std::filesystem::path file;
   std::filesystem::path mesh_folder;
@@ -34,10 +34,11 @@ struct MjcfSettings {
   std::map<std::string, MjcfMaterial> materials;
 
   explicit MjcfSettings(const std::filesystem::path& of) : file(of) {}
-  /// Reads these parts of a file, wherever in it they stand.
+  /// Reads these elements of a file, wherever they are.
   void read(const XmlElement& root, RobotLog& log);
 
-  /// Gives an element what its class, or else that of the bodies around it, says of its kind.
+  /// Adds to an element the default attributes of its class, or else of that of the bodies around
+  /// it.
   void set_defaults(Attributes& a, const std::string& element, const std::string& body_class,
                     RobotLog& log) const;
   /// `pos` and one of quat, axisangle, xyaxes, zaxis, euler.

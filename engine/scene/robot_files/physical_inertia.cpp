@@ -13,7 +13,7 @@ std::optional<PhysicalInertia> physical_inertia(const Mat3& given) {
   PhysicalInertia out;
   out.given = principal.moments;
   out.inertia = given;
-  // Two that are zero are those of a line without thickness, which cannot turn about itself.
+  // Two zero second moments belong to a line without thickness, which has no inertia about itself.
   Vec3 made = second.cwiseMax(0);
   const int small = int((second.array() < robot_tolerances::thinnest * largest).count());
   if (small == 2) made = second.cwiseMax(robot_tolerances::thinnest * largest);

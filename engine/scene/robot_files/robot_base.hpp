@@ -3,13 +3,13 @@
 
 namespace tumble {
 
-/// Whether what no joint of a robot file ties to the world stays there or moves freely.
+/// Whether links that no joint of a robot file attaches to the world are fixed or move freely.
 enum class RobotBase : uint8_t { file, fixed, floating };
 
 /// Which motors a robot has.
 enum class RobotMotors : uint8_t {
-  hold,  ///< joints without one are held where they start
-  file,  ///< those of the file alone
+  hold,  ///< joints without a motor are held at their start
+  file,  ///< only those of the file
 };
 
 }  // namespace tumble

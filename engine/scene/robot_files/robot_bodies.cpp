@@ -15,7 +15,8 @@ void append(std::vector<RobotGeometry>& to, const std::vector<RobotGeometry>& fr
   }
 }
 
-/// What `pose` moves along in the frame of a body that `part` is placed in.
+/// Adds the geometry and mass of `part` to a body, where `pose` places the part in the body's
+/// frame.
 void add_to(RobotBody& to, const RobotBody& part, const Pose& pose) {
   append(to.collides, part.collides, pose);
   append(to.drawn, part.drawn, pose);
@@ -74,7 +75,7 @@ class Joiner {
     gone_.push_back(false);
   }
 
-  /// A body without mass: what hangs on it decides.
+  /// Handles a body without mass, by what is attached to it.
   void join_massless(size_t b) {
     RobotBody& body = out_.bodies[b];
     if (body.fixed) return;
@@ -98,7 +99,7 @@ class Joiner {
       weld(b);
   }
 
-  /// The joints of b come before those of c, in the frame of c.
+  /// Puts the joints of b before those of c, in the frame of c.
   void hand_on(size_t b, size_t c) {
     RobotBody& body = out_.bodies[b];
     RobotBody& child = out_.bodies[c];

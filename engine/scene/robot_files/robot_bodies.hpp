@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// A rigid body of a robot: a link with everything that is welded to it, in its frame.
+/// A rigid body of a robot: a link with everything welded to it, in the link's frame.
 struct RobotBody {
   std::string name;
   RobotPlace at;
@@ -12,13 +12,13 @@ struct RobotBody {
   std::vector<RobotGeometry> collides, drawn;
   size_t parent = RobotLink::world;
   Pose in_parent;                  ///< as the file places it
-  std::vector<RobotJoint> joints;  ///< from the parent on
+  std::vector<RobotJoint> joints;  ///< in order from the parent
   bool floating = false;
   bool fixed = false;  ///< to the world
   Pose start;          ///< in the file's world (z up)
 };
 
-/// A link as part of a body; of the world where that is RobotLink::world.
+/// Where a link is: its body, or the world (RobotLink::world), and its pose there.
 struct LinkPlace {
   size_t body = RobotLink::world;
   Pose in_body;
@@ -29,8 +29,9 @@ struct RobotBodies {
   std::vector<LinkPlace> links;   ///< by link of the model
 };
 
-/// Makes one body of links that are welded to each other; a link without mass hands its joints on
-/// to the one link that hangs on it by joints, or else is welded to its parent, with a warning.
+/// Merges links that are welded to each other into one body each. A link without mass passes its
+/// joints on to the only link attached to it by joints; otherwise it is welded to its parent, with
+/// a warning.
 RobotBodies join_welded(const RobotModel& model, RobotBase base, RobotLog& log);
 
 }  // namespace tumble

@@ -7,7 +7,8 @@
 namespace tumble {
 namespace {
 
-/// Faults and kinds of warnings of one file that are kept, and lines that a warning lists.
+/// Limits for the faults and kinds of warnings that are kept per file, and for the lines that a
+/// warning lists.
 constexpr size_t most_faults = 100, most_warnings = 500, most_lines = 16;
 
 }  // namespace

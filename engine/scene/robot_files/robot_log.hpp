@@ -18,8 +18,8 @@ struct RobotPlace {
 class RobotLog {
  public:
   void fault(const RobotPlace& at, std::string message);
-  /// A request that is not followed, or not exactly. Equal messages of several lines become one
-  /// warning that lists the lines.
+  /// Reports a request that is not, or not exactly, fulfilled. Equal messages of several lines
+  /// become one warning that lists the lines.
   void warn(const RobotPlace& at, const std::string& message);
 
   const std::vector<Fault>& faults() const { return faults_; }

@@ -15,7 +15,7 @@ namespace tumble {
 /// A shape or a mesh of a link.
 struct RobotGeometry {
   RobotPlace at;
-  ShapeDef shape;              ///< when it is no mesh
+  ShapeDef shape;              ///< if it is not a mesh
   std::filesystem::path mesh;  ///< the file; empty for a shape
   Vec3 scale{1, 1, 1};         ///< of the mesh
   Pose pose;                   ///< of the shape's frame in the link's
@@ -23,7 +23,7 @@ struct RobotGeometry {
   std::optional<double> friction;
 };
 
-/// What holds a coordinate where it should be.
+/// A motor that acts on a coordinate.
 struct RobotActuator {
   enum class Kind { position, damper, force };
   Kind kind = Kind::force;
@@ -32,13 +32,14 @@ struct RobotActuator {
   std::optional<double> max_force;
 };
 
-/// The coordinate is another joint's, times `multiplier`, plus `offset` [rad] or [m].
+/// Couples the coordinate to another joint's: it is that times `multiplier`, plus `offset` [rad] or
+/// [m].
 struct RobotMimic {
   std::string joint;
   double multiplier = 1, offset = 0;
 };
 
-/// One coordinate (a ball: three) between a link and what is before it. Angles in radians.
+/// One coordinate (for a ball joint three) between a link and its parent. Angles in radians.
 struct RobotJoint {
   enum class Kind { hinge, slide, ball };
   std::string name;
@@ -48,10 +49,10 @@ struct RobotJoint {
   Vec3 axis{0, 0, 1};          ///< likewise, unit
   std::optional<double> lower, upper;
   double damping = 0, friction = 0, armature = 0, stiffness = 0, rest = 0;
-  double reference = 0;          ///< the coordinate as the file places the link
+  double reference = 0;          ///< value of the coordinate in the file's pose of the link
   double start = 0;              ///< the coordinate at the start
-  std::optional<double> target;  ///< where a motor pulls it, instead of where the file says
-  std::optional<double> effort;  ///< greatest force of what drives it
+  std::optional<double> target;  ///< target of the motor, instead of the file's
+  std::optional<double> effort;  ///< greatest force or torque of the motor
   std::optional<RobotActuator> actuator;
   std::optional<RobotMimic> mimic;
 };
@@ -63,13 +64,13 @@ struct RobotLink {
   RobotPlace at;
   MassProperties mass;  ///< in the link's frame; mass 0: it has none
   std::vector<RobotGeometry> collides, drawn;
-  size_t parent = world;           ///< a link that comes before, or the world
+  size_t parent = world;           ///< an earlier link, or the world
   Pose in_parent;                  ///< as the file places it
-  std::vector<RobotJoint> joints;  ///< from the parent on; none: it is welded to it
-  bool floating = false;           ///< nothing ties it to its parent
+  std::vector<RobotJoint> joints;  ///< in order from the parent; none: it is welded to it
+  bool floating = false;           ///< it is not attached to its parent
 };
 
-/// What keeps two links together in a loop, or apart.
+/// A constraint that closes a loop between two links, or excludes their collision.
 struct RobotTie {
   enum class Kind { point, weld, apart };
   std::string name;
@@ -79,7 +80,7 @@ struct RobotTie {
   Vec3 anchor = Vec3::Zero();  ///< in the frame of a [m]
 };
 
-/// What a robot file says, whichever its format. Parents come before their children.
+/// The content of a robot file, independent of its format. Parents come before their children.
 struct RobotModel {
   std::string name;
   std::filesystem::path file;
@@ -89,7 +90,7 @@ struct RobotModel {
   std::optional<Vec3> gravity;  ///< z up [m/s2]
 };
 
-// Geometries whose axis is z, as robot files have it.
+// Geometries whose axis is z, as in robot files.
 ShapeDef robot_sphere(double radius);
 ShapeDef robot_box(const Vec3& half_extents);
 ShapeDef robot_ellipsoid(const Vec3& semi_axes);
@@ -98,12 +99,12 @@ ShapeDef robot_capsule(double radius, double length);
 ShapeDef robot_cylinder(double radius, double length);
 ShapeDef robot_plane();
 ShapeDef robot_hull(std::shared_ptr<const TriangleMesh> points);
-/// Turns the y axis of Tumble's shapes into the z axis of the files'.
+/// Rotates the y axis of Tumble's shapes to the z axis of the files'.
 Quat z_from_y();
 
 /// The pose of every link at the start, in the file's world (z up).
 std::vector<Pose> start_poses(const RobotModel& model);
-/// How far a joint has moved its link at the start, in the link's frame.
+/// Displacement of a link by its joint at the start, in the link's frame.
 Pose displacement(const RobotJoint& joint);
 
 }  // namespace tumble

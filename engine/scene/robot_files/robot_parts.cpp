@@ -21,14 +21,14 @@
 namespace tumble {
 namespace {
 
-/// Share of a link's mass and inertia that a body has which stands between two of its joints [-]:
-/// small beside the link, and not so small that the joints are hard to solve.
+/// Share of a link's mass and inertia for an auxiliary body between two of its joints [-]: small
+/// compared with the link, but not so small that the joints are ill-conditioned.
 constexpr double between_share = 0.05;
-/// A motor that holds a joint gives way as slowly as this, critically damped [Hz].
+/// Natural frequency of a motor that holds a joint, critically damped [Hz].
 constexpr double holding_frequency = 4;
 constexpr double half_turn = 180;  // [deg]
 
-/// Gives joints what the options say of them by name. Faults: names that there are not.
+/// Sets values of coordinates by the names of joints. Faults: unknown names.
 template <class Set>
 void set_coordinates(RobotModel& model, std::map<std::string, double> waiting, RobotLog& log,
                      const Set& set) {
@@ -63,7 +63,8 @@ void set_starts(RobotModel& model, const RobotOptions& options, RobotLog& log) {
   start_followers(model, log);
 }
 
-/// Of each body with all that hangs on it, in the file's world.
+/// For each body, the mass properties of it and everything attached to it (outboard), in the file's
+/// world.
 std::vector<MassProperties> outboard_masses(const std::vector<RobotBody>& bodies) {
   std::vector<MassProperties> out;
   for (const RobotBody& b : bodies)
@@ -96,7 +97,7 @@ class RobotMaker {
  private:
   Pose world() const { return o_.pose * z_up(); }
 
-  /// A name that the scene can have, and that no other part of its kind has.
+  /// A valid name that no other part of its kind in the scene has.
   std::string name_for(const std::string& given, const std::string& list, const RobotPlace& at) {
     constexpr size_t longest = 60;
     std::string name = o_.prefix;
@@ -139,7 +140,7 @@ class RobotMaker {
   void add_body(size_t index) {
     RobotBody& body = robot_.bodies[index];
     body_names_.emplace_back();
-    // What is fixed and is not there for anybody is the world itself.
+    // A fixed body without geometry is replaced by the world itself.
     if (body.fixed && body.collides.empty() && body.drawn.empty()) return;
     stages_[index] = joint_stages(body.joints);
     const size_t between = stages_[index].empty() ? 0 : stages_[index].size() - 1;
@@ -163,7 +164,7 @@ class RobotMaker {
     return false;
   }
 
-  /// A body of its own between two joints, where the link would be after the first of them.
+  /// An auxiliary body between two joints, at the pose of the link after the first of them.
   std::string body_between(const RobotBody& body, const Pose& start) {
     RobotBody made;
     made.at = body.at;
@@ -227,7 +228,7 @@ class RobotMaker {
     out_.scene.joints.add(name, std::move(made));
   }
 
-  /// The coordinate where the bodies stand. Angles beyond half a turn are counted from there.
+  /// Sets the coordinate at the start. Angles beyond half a turn are counted relative to the start.
   static void set_start(RobotJoint& joint, JointDescription& made) {
     if (joint.start == 0) return;
     if (joint.kind == RobotJoint::Kind::slide) {
@@ -288,7 +289,8 @@ class RobotMaker {
     out_.scene.joints.add(name_for(name, "joints.", tie.at), std::move(made));
   }
 
-  /// Bodies that a joint ties do not collide: this one leaves everything free.
+  /// Excludes collisions between two bodies by a joint that leaves all coordinates free, since
+  /// jointed bodies do not collide.
   void apart(const std::string& a, const std::string& b, const RobotPlace& at) {
     if (a.empty() || b.empty() || !apart_.insert(std::minmax(a, b)).second) return;
     JointDescription made;

@@ -8,36 +8,38 @@
 namespace tumble {
 
 struct RobotOptions {
-  std::string prefix{};  ///< of all names
+  std::string prefix{};  ///< prepended to all names
   Pose pose{};           ///< of the file's world in the scene, before z is turned up
   RobotBase base = RobotBase::file;
   RobotMotors motors = RobotMotors::hold;
   bool self_collision = true;
   int group = 0;  ///< for links that do not collide with each other
-  /// Coordinates by the file's names: at the start, and where motors pull them [rad], [m].
+  /// Coordinates by the file's names: initial values, and targets of motors [rad], [m].
   std::map<std::string, double> start{}, target{};
 };
 
-/// Bodies, joints and meshes of a robot, for a scene to take in.
+/// Bodies, joints and meshes made from a robot, to be added to a scene.
 struct RobotParts {
   SceneDescription scene;
   std::map<std::string, int> lines;  ///< in the robot's file, by "bodies.NAME"
   Aabb bounds;                       ///< of all but planes, at the start
-  bool has_ground = false;           ///< a plane of its own
+  bool has_ground = false;           ///< it contains a plane
 };
 
-/// Whether a file is read as a robot: by its ending .urdf, .urdf.gz or .mjcf, an .xml by its root.
+/// Whether a file is a robot: by its ending .urdf, .urdf.gz or .mjcf, and for .xml by its root
+/// element.
 bool is_robot_file(const std::filesystem::path& file);
 /// Reads URDF or MJCF, by the root element.
 RobotModel read_robot_file(const std::filesystem::path& file, const PackageFolders& packages,
                            RobotLog& log);
 
-/// Turns the z axis of robot files up: the pose of their world in Tumble's.
+/// The pose of the files' world in Tumble's: rotates the z axis up.
 Pose z_up();
 
-/// The links become bodies in the frames that their file gives them, turned so that its z points
-/// up; chains of coordinates become joints (joint_stages), with a body of a small share of the
-/// link's mass between two of them. Faults: starts that name no joint or are beyond its limits.
+/// The links become bodies in the frames that their file gives them, rotated so that its z points
+/// up; chains of coordinates become joints (joint_stages), with an auxiliary body, of a small share
+/// of the link's mass, between two of them. Faults: start values for unknown joints or beyond
+/// limits.
 RobotParts make_robot(RobotModel model, const RobotOptions& options, RobotLog& log);
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ struct PlacedShape {
   Aabb box;
 };
 
-/// The body that a tree of joints begins with: what is free, or tied to the world.
+/// The root of a body's tree of joints: a free body, or one attached to the world.
 size_t tree_of(const std::vector<RobotBody>& bodies, size_t body) {
   while (bodies[body].parent != RobotLink::world && !bodies[body].floating)
     body = bodies[body].parent;

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// A length of a shape; one that is not above zero is a fault.
+/// A length of a shape; one that is not positive is a fault.
 double read_length(Attributes& a, std::string_view name) {
   double out = 0;
   if (!a.has(name)) a.fault("", fmt::format("the attribute '{}' is missing", name));
@@ -32,7 +32,7 @@ bool read_mesh(const XmlElement& e, const UrdfFiles& files, RobotGeometry& out, 
   return file.has_value();
 }
 
-/// Fills shape or mesh; false where there is none.
+/// Reads a shape or mesh; false if there is none.
 bool read_geometry(const XmlElement& of, const UrdfFiles& files, RobotGeometry& out,
                    RobotLog& log) {
   const XmlElement* geometry = of.find("geometry");

@@ -7,10 +7,10 @@
 
 namespace tumble {
 
-/// Colours by name: <material> is declared at the top or where it is first used.
+/// Colours by name: a <material> is declared at the top or at its first use.
 class UrdfMaterials {
  public:
-  /// Reads a <material>; its colour, or that of the name it refers to.
+  /// Reads a <material>; returns its colour, or that of the name it refers to.
   std::optional<Colour> add(const XmlElement& e, RobotLog& log);
 
  private:

@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-/// A joint as its element says it, before the tree is known.
+/// A joint as given by its element, before the tree is built.
 struct UrdfJoint {
   std::string parent, child;
   Pose origin;
@@ -74,8 +74,8 @@ Vec3 read_axis(const XmlElement* e, RobotLog& log) {
   return {1, 0, 0};
 }
 
-/// The coordinates of a joint of a kind: those of `planar` slide in the plane and turn about its
-/// normal.
+/// Makes the coordinates of a kind of joint: those of `planar` are two translations in the plane
+/// and a rotation about its normal.
 void make_coordinates(const XmlElement& e, size_t type, UrdfJoint& out, RobotLog& log) {
   if (type == urdf_type::fixed || type == urdf_type::floating) {
     out.floating = type == urdf_type::floating;
@@ -119,7 +119,7 @@ void make_coordinates(const XmlElement& e, size_t type, UrdfJoint& out, RobotLog
       out.coordinates.push_back(slide);
     }
   }
-  // Zero where it may be, else the nearest.
+  // Zero if the limits allow it, otherwise the nearest value.
   if (joint.lower) joint.start = std::clamp(0.0, *joint.lower, *joint.upper);
   if (joint.start != 0)
     log.warn(e.at, fmt::format("joint '{}' starts at its limit {}, for 0 is beyond it", out.name,
@@ -154,7 +154,8 @@ UrdfJoint read_urdf_joint(const XmlElement& e, RobotLog& log) {
   return out;
 }
 
-/// What is fixed, or free altogether, has no coordinate that another could follow.
+/// Removes couplings to joints that are fixed or free (floating), which have no coordinate to
+/// follow.
 void let_go_of_unmoved(std::vector<UrdfJoint>& joints, RobotLog& log) {
   for (UrdfJoint& joint : joints)
     for (RobotJoint& c : joint.coordinates) {
@@ -169,7 +170,7 @@ void let_go_of_unmoved(std::vector<UrdfJoint>& joints, RobotLog& log) {
     }
 }
 
-/// Puts links and joints together into one tree, parents first.
+/// Builds one tree of links and joints, parents first.
 class UrdfTree {
  public:
   UrdfTree(std::vector<RobotLink> links, std::vector<UrdfJoint> joints, RobotLog& log)
@@ -190,7 +191,7 @@ class UrdfTree {
  private:
   static constexpr size_t none = ~size_t{0};
 
-  /// Files may hang on a link `world` without declaring it.
+  /// Files may attach links to a link `world` without declaring it.
   void add_world() {
     for (const UrdfJoint& joint : joints_) {
       if (joint.parent != "world" || by_name_.contains("world")) continue;

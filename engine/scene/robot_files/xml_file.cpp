@@ -21,10 +21,10 @@ struct EndInflate {
   ~EndInflate() { inflateEnd(stream); }
 };
 
-/// Unpacks gzip; empty text where that fails, with a fault.
+/// Decompresses gzip; after a fault the text is empty.
 std::string unpacked(const std::string& packed, const RobotPlace& at, RobotLog& log) {
   z_stream stream{};
-  constexpr int gzip_window = 15 + 16;  // zlib: 16 more stands for the header of gzip
+  constexpr int gzip_window = 15 + 16;  // zlib: adding 16 selects the gzip header
   if (inflateInit2(&stream, gzip_window) != Z_OK) {
     log.fault(at, "cannot be unpacked");
     return {};

@@ -21,10 +21,10 @@ struct XmlElement {
   const XmlElement* find(std::string_view child) const;
 };
 
-/// The root element of an XML file, which may be packed by gzip. Faults: it cannot be read or
-/// unpacked, is too large, or is not well-formed XML (with the line).
+/// The root element of an XML file, which may be compressed by gzip. Faults: it cannot be read or
+/// decompressed, is too large, or is not well-formed XML (with the line).
 std::optional<XmlElement> read_xml(const std::filesystem::path& file, RobotLog& log);
-/// The same of text that is in memory; `name` stands for its file in faults.
+/// The same for a text in memory; `name` is the file's name in faults.
 std::optional<XmlElement> parse_xml(const std::string& text, const std::string& name,
                                     RobotLog& log);
 

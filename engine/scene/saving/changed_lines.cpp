@@ -23,7 +23,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 std::vector<std::string> changed_lines(const std::string& before, const std::string& after) {
   const auto a = lines_of(before), b = lines_of(after);
-  // Longest common subsequence of lines behind and before what is equal anyway.
+  // The longest common subsequence is only computed between the common prefix and the common
+  // suffix.
   size_t head = 0, tail = 0;
   while (head < std::min(a.size(), b.size()) && a[head] == b[head]) ++head;
   while (tail < std::min(a.size(), b.size()) - head &&

@@ -56,7 +56,7 @@ Json body_json(const BodyDef& def) {
   Json shapes = Json::array();
   for (const BodyShapeDef& part : def.shapes) {
     Json shape = shape_json(part);
-    // That of the first one is the body's.
+    // The material of the first shape is that of the body.
     if (Json own = material_json(part.material); own != material_json(def.shapes[0].material))
       shape["material"] = std::move(own);
     shapes.push_back(std::move(shape));

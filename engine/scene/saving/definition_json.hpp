@@ -8,13 +8,13 @@
 
 namespace tumble {
 
-// Definitions of a world as values of a scene file. What is by default is left out.
+// Converts definitions of a world to JSON of a scene file. Default values are left out.
 
-/// On one line, with a space inside brackets, as scenes are written.
+/// JSON on one line, with a space inside brackets, in the style of scene files.
 std::string one_line(const Json& value);
 
 Json number_of(const ShapeDef& shape, const ShapeParameter& p);
-/// The material by its name where it is a built-in one, else what differs from the default.
+/// The name of a built-in material, or the values that differ from the default.
 Json material_json(const Material& material);
 /// Without its material.
 Json shape_json(const BodyShapeDef& part);

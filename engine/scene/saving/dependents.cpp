@@ -27,9 +27,10 @@ constexpr NamingKey naming_keys[] = {{"body", "bodies"},       {"a", "bodies"},
                                      {"joint", "joints"},      {"particles", "particles"},
                                      {"between", "particles"}, {"emitter", "emitters"},
                                      {"camera", "cameras"}};
-/// Keys whose text, or texts, are expressions over quantities: "bodies.ball.position.y > 1".
+/// Keys whose value, a text or an array of texts, are expressions over quantities:
+/// "bodies.ball.position.y > 1".
 constexpr std::string_view expression_keys[] = {"holds", "assertions", "plot", "quantity"};
-/// What can be left out of what it stands in, together with all that is in it.
+/// Keys that can be removed from their object together with their value.
 constexpr std::string_view loose_keys[] = {"follow",   "couple", "camera", "plot",
                                            "question", "pins",   "events", "rope"};
 
@@ -38,7 +39,7 @@ bool among(const Keys& keys, std::string_view key) {
   return std::ranges::find(keys, key) != std::end(keys);
 }
 
-/// What is gone: "ball" stands for its copies, too.
+/// What was removed: "ball" stands for its copies, too.
 struct Gone {
   std::string list, name;
 
@@ -54,7 +55,7 @@ struct Gone {
     return list == "bodies" && quantity.starts_with("sensors.") &&
            quantity.ends_with(".holds." + name);
   }
-  /// Whether it is of a force that a particle system makes for itself: "flag.cloth".
+  /// Whether a quantity belongs to a force that a particle system makes for itself: "flag.cloth".
   bool of_weave(const std::string& quantity) const {
     constexpr std::string_view made[] = {"cloth", "net", "rope", "springs"};
     return std::ranges::any_of(made, [&](std::string_view kind) {
@@ -71,11 +72,11 @@ struct Gone {
   }
 };
 
-/// Looks for the first text that names what is gone.
+/// Searches for the first text that refers to what was removed.
 class Search {
  public:
   explicit Search(const Gone& gone) : gone_(gone) {}
-  /// Calls `each` for every such text, with the key that it stands under.
+  /// Calls `each` for every text value, with its key.
   using Each = std::function<void(const Path&, std::string_view key, const std::string& text)>;
   void all_in(const JsonNode& root, const Each& each) {
     each_ = &each;
@@ -86,7 +87,7 @@ class Search {
   std::optional<Path> in(const JsonNode& root) {
     found_.clear();
     for (size_t i = 0; i < root.keys.size(); ++i) {
-      // What stands among the definitions has names as keys, which mean nothing here.
+      // The keys among the definitions are names, which have no meaning as keys here.
       if (look(root.items[i], root.keys[i], {{root.keys[i], {}}}, 0)) return found_;
     }
     return std::nullopt;
@@ -117,7 +118,7 @@ class Search {
     if (path[0].key == "bodies" || path[0].key == "materials") return false;
     if (among(expression_keys, key)) return gone_.in_expression(text);
     if (path.size() < 2) return false;
-    // Of sensors, joints and forces; a robot's own names stand elsewhere.
+    // For sensors, joints and forces; the names that a robot uses are in other places.
     return std::ranges::any_of(naming_keys, [&](const NamingKey& k) {
       return k.key == key && k.list == gone_.list && gone_.named(text);
     });
@@ -145,29 +146,31 @@ bool says(const JsonNode& object, std::string_view key, std::string_view value) 
   return member && member->string == value;
 }
 
-/// Whether a definition does something still without this one of its members, which would hold
-/// names of nothing.
+/// Whether a definition still has a purpose without this member, which would be an empty list of
+/// names.
 bool does_without(const JsonNode& object, std::string_view key) {
   for (const auto& [one, other] : {std::pair("bodies", "particles"), {"particles", "bodies"}})
     if (const JsonNode* rest = object.find(other);
         key == one && rest && (!rest->items.empty() || !rest->string.empty()))
       return true;
-  // An event of which particles die.
+  // An event tells of which particles the death is meant.
   const JsonNode* dies = object.find("dies");
   return key == "emitter" && dies && dies->boolean && says(object, "event", "collision");
 }
 
-/// A sink of particles and bodies that shall not take all particles when it has no names of them.
+/// A sink of particles and bodies, which must not take all particles when it has no names of
+/// systems any more.
 bool takes_bodies_too(const JsonNode& root, const Path& path) {
   if (path.size() < 3 || path[0].key != "sinks" || path[2].key != "particles") return false;
   const JsonNode* sink = node_at(root, std::span(path).first(2));
   return sink && (says(*sink, "takes", "both") || says(*sink, "takes", "bodies"));
 }
 
-/// What has to go where a text at `path` names what is gone: a beginning of that path.
+/// What must be removed for a text at `path` that refers to what was removed: a prefix of that
+/// path.
 Path to_be_removed(const JsonNode& root, Path path) {
   const auto around = [&] { return node_at(root, std::span(path).first(path.size() - 1)); };
-  // One of several names goes alone.
+  // One of several names is removed alone.
   if (path.back().index) {
     if (around()->items.size() > 1) return path;
     path.pop_back();
@@ -180,7 +183,7 @@ Path to_be_removed(const JsonNode& root, Path path) {
     if (!path.back().index && among(loose_keys, path.back().key)) return path;
     const bool of_map = path.size() == 2 && !path[1].index && !among(unnamed, path[0].key);
     if (of_map) return path;
-    // An item of a list of objects; ropes need two places.
+    // An item of a list of objects; the path of a rope needs two.
     if (path.back().index && around()->items.size() > (path[path.size() - 2].key == "path" ? 2 : 1))
       return path;
     path.pop_back();
@@ -195,8 +198,8 @@ std::string text_of(std::span<const PathStep> path) {
   return out;
 }
 
-/// Whether a text could name this somewhere, which is quick to ask: of most copies of a body there
-/// is nothing to be found. Escapes may hide a name.
+/// A quick test whether a text could contain this name: for most copies of a body it does not.
+/// Escape sequences may hide a name, and count as if they did.
 bool may_name(const JsonTextEdit& text, std::string_view name) {
   return text.text().find(name) != std::string::npos || text.text().find('\\') != std::string::npos;
 }
@@ -214,8 +217,7 @@ bool is_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// The text with `to` in the place of `name` wherever `before` stands in front of it and no letter
-/// behind it.
+/// Replaces `name` by `to` wherever `before` precedes it and no letter follows.
 std::string with_name(std::string text, const std::string& before, const std::string& name,
                       const std::string& to) {
   const std::string head = before + name;
@@ -230,7 +232,7 @@ std::string with_name(std::string text, const std::string& before, const std::st
   return text;
 }
 
-/// An expression over quantities, or a name with the number of a copy behind it.
+/// Renames in an expression over quantities, or in a name with the index of a copy.
 std::string renamed_text(const Gone& gone, std::string_view key, const std::string& text,
                          const std::string& to) {
   if (!among(expression_keys, key)) return to + text.substr(gone.name.size());
@@ -304,13 +306,13 @@ std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view lis
 }
 
 std::string held_by_count(const JsonTextEdit& text, const std::string& body) {
-  constexpr double most = 1e5;  // more are refused when a scene is read
+  constexpr double most = 1e5;  // a larger number is rejected when a scene is read
   const std::string copies = body.substr(0, body.find('[') + 1);
   FaultList faults;
   const auto tree = may_name(text, copies) ? parse_json(text.text(), "", faults) : std::nullopt;
   if (!tree) return {};
   const auto names = [&](const std::string& name, const JsonNode& count) {
-    // How many there are is not known here: as if each copy were among them.
+    // The number of copies is not known here, so each index counts as a copy.
     if (count.is(JsonNode::Kind::string)) return name.starts_with(copies);
     for (int n = 0; n < int(count.number); ++n)
       if (const auto one = counted_name(name, n); one && *one == body) return true;

@@ -11,8 +11,8 @@ namespace tumble {
 /// Something that was removed from a scene's file because it depended on something removed.
 struct TakenAlong {
   std::string list;  ///< "joints", "cameras", "lesson"
-  std::string name;  ///< of what stands there; "" where nothing has names
-  std::string rest;  ///< what of it, where it stays: "follow", "events[1]"
+  std::string name;  ///< name of the object; "" if it has none
+  std::string rest;  ///< the part of it that was removed, if the rest stays: "follow", "events[1]"
 
   /// "the spring rope", "follow of the camera main".
   std::string words() const;
@@ -27,13 +27,14 @@ struct TakenAlong {
 std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
                                         const std::string& name);
 
-/// The text of a scene in which a thing of a list is called `to`, wherever it is named: copies and
-/// expressions included. Error: it is not in the file, or `to` is taken or no name.
+/// The text of a scene in which a thing of a list is renamed to `to`, together with all references,
+/// including copies and expressions. Error: it is not in the file, or `to` is used already or not a
+/// valid name.
 Result<std::string> renamed(const std::string& scene, const std::string& list,
                             const std::string& name, const std::string& to);
 
-/// What holds this copy of a body, by a description that makes several (`count`) and cannot leave
-/// one out: "joints.link"; "": nothing does.
+/// What refers to this copy of a body by a description that makes several (`count`) and cannot
+/// leave one out: "joints.link"; "": nothing.
 std::string held_by_count(const JsonTextEdit& text, const std::string& body);
 
 }  // namespace tumble

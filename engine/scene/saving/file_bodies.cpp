@@ -14,7 +14,8 @@
 namespace tumble {
 namespace {
 
-/// From a folder as the file system goes: ".." leaves where a link to a folder leads.
+/// A path relative to a folder, resolved as the file system does: ".." from a linked folder leads
+/// to the parent of its target.
 std::filesystem::path relative_name(const std::filesystem::path& file,
                                     const std::filesystem::path& folder) {
   std::error_code none;
@@ -76,13 +77,13 @@ void FileChanges::add_copy(const AddedBody& c, const Path& original) {
   const BodyName name = split_name(c.like);
   for (const char* key : {"shape", "shapes", "material", "density"}) {
     auto text = edit.value(original / key);
-    // One of several may have a material of its own.
+    // A copy of a repetition may have a material of its own.
     if (name.copy)
       if (const auto single = edit.value(original / "copies" / *name.copy / key)) text = single;
     if (text && !edit.set(own / key, std::string(*text)))
       left_out.push_back(fmt::format("{}: there is no place for its {}", c.def.name, key));
   }
-  // One that collides in another way by now than the file says.
+  // The body may have been changed to another collision mode than the file has.
   const std::vector<ShapeGroup> groups = shape_groups(c.def);
   for (size_t g = 0; g < groups.size(); ++g)
     if (const auto source = source_of(c.def, groups[g]))
@@ -166,7 +167,7 @@ void FileChanges::operator()(const ChangedBody& c) {
     Placement place;
     place.turn(c.after.pose.q);
     if (!place.orientation) after["euler_deg"] = to_json(place.euler_deg.value_or(Vec3::Zero()));
-    if (place.orientation && !name.copy) {  // copies have angles alone
+    if (place.orientation && !name.copy) {  // copies can only have angles
       after["orientation"] = to_json(*place.orientation);
       after.erase("euler_deg");
     }
@@ -213,8 +214,8 @@ void FileChanges::keep_what_copies_have(const std::string& name, const Json& bef
     }
 }
 
-/// Shapes that are the same at the beginning and at the end stay; what is between them goes, and
-/// what is there now comes behind all others.
+/// Shapes that are equal at the beginning and at the end of the list stay; those between are
+/// removed, and the new ones are appended.
 void FileChanges::change_count_of_shapes(const ChangedBody& c, const BodyName& name,
                                          const std::vector<ShapeGroup>& old,
                                          const std::vector<ShapeGroup>& now) {
@@ -244,12 +245,12 @@ void FileChanges::change_count_of_shapes(const ChangedBody& c, const BodyName& n
       continue;
     }
     Json shape = shape_json(part);
-    // As the others of this body, where it is.
+    // Same material as the other shapes of this body.
     const bool alike =
         g > 0 && material_json(part.material) == material_json(c.after.shapes[0].material);
     if (!alike || edit.value(shape_path(name, 0) / "material"))
       shape["material"] = material_json(part.material);
-    // One shape stands under "shape", several under "shapes".
+    // A single shape has the key "shape", several have "shapes".
     if (const auto only = edit.value(body / "shape")) {
       edit.set(body / "shape", "[" + std::string(*only) + "]");
       edit.rename(body / "shape", "shapes");
@@ -325,7 +326,7 @@ void FileChanges::change_material(const Path& path, const BodyName& name,
   };
   const Json before = material_of(group.before);
   Json after = material_of(group.after);
-  // What a division rounds is no change.
+  // A difference from rounding a division is not a change.
   const double was = before["density"], is = after["density"];
   if (std::abs(is - was) < 1e-12 * was) after["density"] = before["density"];
   if (before == after) return;

@@ -34,7 +34,7 @@ void FileChanges::merge(const Path& path, const Json& before, const Json& after)
       merge(own, was.is_object() ? was : Json::object(), item.value());
     else if (text && list_of_objects(was) && list_of_objects(item.value()) &&
              was.size() == item.value().size() && (was.size() == 1 || text->starts_with('[')))
-      for (size_t i = 0; i < was.size(); ++i)  // one alone may stand without brackets
+      for (size_t i = 0; i < was.size(); ++i)  // a single one may be without brackets
         merge(text->starts_with('[') ? at_index(own, i) : own, was[i], item.value()[i]);
     else
       set(own, item.value());
@@ -143,7 +143,7 @@ void FileChanges::operator()(const AddedPart& c) {
 void FileChanges::operator()(const ChangedPart& c) {
   const Path path = Path{} / list_of(c.after) / c.name;
   const Json before = part_json(c.before), after = part_json(c.after);
-  // Of another kind: nothing of the old one means anything any more.
+  // For another kind, nothing of the old value has a meaning.
   if (before.value("type", Json()) != after.value("type", Json()))
     set(path, after);
   else
@@ -162,7 +162,7 @@ void FileChanges::operator()(const AddedSpring& c) {
     out["point"] = to_json(anchor.point);
     return out;
   };
-  SpringDef def = c.def;  // leaves refer to what may be changed
+  SpringDef def = c.def;  // a copy, since the references to its leaves are not const
   Json out = {{"type", "spring"},
               {"a", end(def.a, c.a)},
               {"b", end(def.b, c.b)},

@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// "brick[3]" -> brick, 3.
+/// The parts of a name: "brick[3]" -> brick, 3.
 struct BodyName {
   std::string base;
   std::optional<std::string> copy;
@@ -22,15 +22,15 @@ inline BodyName split_name(const std::string& name) {
   return {name.substr(0, open), name.substr(open + 1, name.size() - open - 2)};
 }
 
-/// The text of a scene file, in which one change after the other is carried out. Changes of bodies
+/// The text of a scene file, to which changes are applied one after the other. Changes of bodies
 /// are in `file_bodies.cpp`, all others in `file_changes.cpp`.
 struct FileChanges {
   using Path = JsonTextEdit::Path;
 
   JsonTextEdit edit;
-  std::vector<std::string> left_out;  ///< what a scene file cannot say, a line each
-  std::vector<TakenAlong> along;      ///< what went with something that was removed
-  std::filesystem::path folder{};     ///< of the file; empty: not known
+  std::vector<std::string> left_out;  ///< changes that a scene file cannot represent, one per line
+  std::vector<TakenAlong> along;      ///< things removed because they depended on something removed
+  std::filesystem::path folder{};     ///< folder of the file; empty: unknown
 
   void operator()(const ChangedSettings& c);
   void operator()(const ChangedParameter& c);
@@ -46,40 +46,40 @@ struct FileChanges {
   void operator()(const RemovedPart& c);
 
  private:
-  /// A shape of the file: the first of those of the body that stand for it.
+  /// A shape of the file, with the index of the first of the body's shapes that it stands for.
   struct ChangedGroup {
-    size_t index, count;  ///< which of how many
+    size_t index, count;  ///< index of the shape in the file, and number of shapes
     const BodyShapeDef &before, &after;
   };
 
   void set(const Path& path, const Json& value);
-  /// Sets the members in which two objects differ; what is as by default now is removed.
+  /// Sets the members in which two objects differ; members that have their default value now are
+  /// removed.
   void merge(const Path& path, const Json& before, const Json& after);
-  /// The same for what acts along a coordinate: a value that changes is in the one unit that is
-  /// written here.
+  /// The same for a drive along a coordinate: a changed value is given in one unit only.
   void merge_drive(const Path& path, const Json& before, const Json& after, bool angle);
-  /// Whatever names what is gone goes along.
+  /// Removes something together with all that refers to it.
   void drop(std::string_view list, const std::string& name);
 
-  /// The name in the file of a mesh, which is put there unless it is there already.
+  /// The name of a mesh in the file, to which it is added if necessary.
   std::string name_mesh(const MeshOfBody& mesh);
   void add_mesh_body(const AddedBody& c);
-  /// A copy of a body of meshes: its shapes are those of the original, word for word.
+  /// Adds a copy of a body with meshes: the text of its shapes is copied from the original.
   void add_copy(const AddedBody& c, const Path& original);
-  /// Where the file describes the body that a name stands for, an emitted one included.
+  /// Path of the description of the body with this name, which may be one that an emitter copies.
   std::optional<Path> described(const std::string& name) const;
-  /// False, and said unless an emitter made it, where the file has no such body: one of a robot,
-  /// or one that could not be added.
+  /// Whether the file has such a body. If not (a body of a robot, or one that could not be added),
+  /// this is reported, except for bodies made by emitters.
   bool has_body(const std::string& name);
-  /// Where the file has shape number `index` of a body.
+  /// Path of shape number `index` of a body.
   Path shape_path(const BodyName& name, size_t index) const;
 
-  /// As what the file says that the mesh of a shape collides, with quotes; "" where it does not
-  /// say.
+  /// The collision mode that the file gives for the mesh of a shape, with quotes; "" if it gives
+  /// none.
   std::string said_mode(const Path& shape) const;
-  /// As what it collides from now on; false where the file does not say that of a mesh.
+  /// Sets the collision mode of a shape; false if the file has no mesh there.
   bool set_mode(const Path& shape, MeshMode mode);
-  /// True where a mesh collides in another way than before.
+  /// Changes the collision mode if it differs; true if it did.
   bool change_mode(const ChangedBody& c, const BodyName& name, const ChangedGroup& group,
                    const std::shared_ptr<const MeshSource>& before,
                    const std::shared_ptr<const MeshSource>& after);
@@ -87,13 +87,13 @@ struct FileChanges {
                               const std::vector<ShapeGroup>& old,
                               const std::vector<ShapeGroup>& now);
   void change_shape(const ChangedBody& c, const BodyName& name, const ChangedGroup& group);
-  /// A mesh that has grown is the file's with another `scale`.
+  /// Changes the `scale` of a mesh in the file to that of a scaled mesh.
   void scale_mesh(const ChangedBody& c, const BodyName& name, size_t index,
                   const TriangleMesh& before, const TriangleMesh& after);
-  /// A shape's own material is changed where the body has several shapes, else the body's. A name
-  /// becomes {"like": name, ...}.
+  /// Changes the material of the shape if the body has several shapes, otherwise that of the body.
+  /// A name becomes {"like": name, ...}.
   void change_material(const Path& path, const BodyName& name, const ChangedGroup& group);
-  /// Leaves values as they were that one copy of many cannot have for itself.
+  /// Restores in `after` values that one copy of many cannot have for itself.
   void keep_what_copies_have(const std::string& name, const Json& before, Json& after);
 };
 

@@ -15,7 +15,7 @@ std::string json_quoted(std::string_view text) {
 
 }  // namespace
 
-/// Behind spaces and comments.
+/// The position after spaces and comments.
 size_t JsonTextEdit::skip_space(size_t at) const {
   const std::string_view text = text_;
   for (;;) {
@@ -37,7 +37,7 @@ size_t JsonTextEdit::skip_string(size_t at) const {
   return at + 1;
 }
 
-/// Behind the value that begins at `at`.
+/// The position after the value that begins at `at`.
 size_t JsonTextEdit::skip_value(size_t at) const {
   if (text_[at] == '"') return skip_string(at);
   if (text_[at] != '{' && text_[at] != '[')
@@ -62,7 +62,7 @@ std::vector<JsonTextEdit::Member> JsonTextEdit::members(Span object) const {
     Member m;
     m.key = {at, skip_string(at)};
     m.name = nlohmann::json::parse(text_.substr(m.key.begin, m.key.end - m.key.begin));
-    m.value.begin = skip_space(skip_space(m.key.end) + 1);  // behind the colon
+    m.value.begin = skip_space(skip_space(m.key.end) + 1);  // after the colon
     m.value.end = skip_value(m.value.begin);
     at = skip_space(m.value.end);
     if (at < object.end && text_[at] == ',') at = skip_space(at + 1);
@@ -139,7 +139,7 @@ bool JsonTextEdit::blank(size_t begin, size_t end) const {
          std::string_view::npos;
 }
 
-/// On a line of its own where the last member begins one, as far in as that.
+/// On a line of its own if the last member begins one, with the same indentation.
 void JsonTextEdit::add_member(Span object, std::string_view name, std::string_view value) {
   const std::string member = json_quoted(name) + ": " + std::string(value);
   const auto all = members(object);
@@ -151,13 +151,13 @@ void JsonTextEdit::add_member(Span object, std::string_view name, std::string_vi
   const size_t line = line_begin(last.key.begin);
   const bool own_line = blank(line, last.key.begin);
   const size_t next = skip_space(last.value.end);
-  const bool comma = text_[next] == ',';  // which some writers leave behind the last member
+  const bool comma = text_[next] == ',';  // a trailing comma, which some writers add
   if (!own_line) {
     text_.insert(comma ? next + 1 : last.value.end, (comma ? " " : ", ") + member);
     return;
   }
   const std::string indent = text_.substr(line, last.key.begin - line);
-  // A comment behind the last member stays with it, where the line ends before the object does.
+  // A comment after the last member stays with it, if the line ends before the object does.
   size_t at = line_end(comma ? next : last.value.end);
   if (at >= object.end) at = comma ? next + 1 : last.value.end;
   text_.insert(at, "\n" + indent + member);
@@ -178,7 +178,7 @@ bool JsonTextEdit::append(const Path& array, std::string_view value) {
   const std::string between =
       blank(line, last.begin) ? ",\n" + text_.substr(line, last.begin - line) : ", ";
   const size_t next = skip_space(last.end);
-  if (text_[next] == ',') text_.erase(next, 1);  // which some writers leave behind the last item
+  if (text_[next] == ',') text_.erase(next, 1);  // a trailing comma, which some writers add
   text_.insert(last.end, between + item);
   return true;
 }
@@ -216,7 +216,8 @@ bool JsonTextEdit::remove(const Path& path) {
   return true;
 }
 
-/// One of the members or items of something, with its comma, and its line where it has one.
+/// Removes one of the members or items of a value, with its comma, and with its line if it has one
+/// of its own.
 void JsonTextEdit::erase_one(const std::vector<Span>& all, size_t which) {
   auto [begin, end] = all[which];
   const size_t next = skip_space(end);
@@ -232,7 +233,7 @@ void JsonTextEdit::erase_one(const std::vector<Span>& all, size_t which) {
     while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t')) --begin;
   }
   text_.erase(begin, end - begin);
-  // The one before is the last now: its comma goes too.
+  // The item before it becomes the last one, and loses its comma.
   if (last && which > 0 && text_[skip_space(all[which - 1].end)] == ',')
     text_.erase(skip_space(all[which - 1].end), 1);
 }

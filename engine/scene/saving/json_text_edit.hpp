@@ -21,16 +21,16 @@ class JsonTextEdit {
   const std::string& text() const { return text_; }
   /// The text of a value, empty if there is none.
   std::optional<std::string_view> value(const Path& path) const;
-  /// Replaces a value, or adds it as the last member of its object; objects on the way that are
-  /// missing are made. False where something on the way is no object or array, or an item is
-  /// missing.
+  /// Replaces a value, or adds it as the last member of its object; missing objects on the path are
+  /// created. False if something on the path is neither object nor array, or an item does not
+  /// exist.
   bool set(const Path& path, std::string_view value);
-  /// Removes a member of an object or an item of an array, and its line where it had one for
-  /// itself. False when there is none.
+  /// Removes a member of an object or an item of an array, with its line if it has one of its own.
+  /// False if there is none.
   bool remove(const Path& path);
-  /// One more item behind those of an array. False where there is no array.
+  /// Appends an item to an array. False if there is no array.
   bool append(const Path& array, std::string_view value);
-  /// A member of an object is called otherwise from now on. False when there is none.
+  /// Renames the key of a member. False if there is none.
   bool rename(const Path& path, std::string_view key);
 
  private:

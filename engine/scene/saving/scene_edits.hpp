@@ -17,25 +17,25 @@
 
 namespace tumble {
 
-// What a person changed about a world that was made from a scene file. Bodies are named as in the
-// world: "ball", "brick[3]".
+// Changes by the user to a world that was made from a scene file. Bodies are named as in the world:
+// "ball", "brick[3]".
 
 /// Values, shapes and materials that differ between the two definitions.
 struct ChangedBody {
   std::string name;
   BodyDef before, after;
 };
-/// A mesh file that a whole body is made of.
+/// A mesh file from which a whole body is made.
 struct MeshOfBody {
-  std::filesystem::path file;  ///< from the root
-  double scale = 1;            ///< metres per unit of the file; its middle is the body's origin
+  std::filesystem::path file;  ///< absolute path
+  double scale = 1;  ///< metres per unit of the file; the centre of its bounds is the body's origin
   MeshMode mode = MeshMode::triangle_mesh;
-  Material material;  ///< of all of it
+  Material material;  ///< of all its shapes
 };
 struct AddedBody {
   BodyDef def;
-  std::shared_ptr<const MeshOfBody> mesh = nullptr;  ///< null: it is of shapes alone
-  /// The body of the scene that it is a copy of, which names its meshes; "" for none.
+  std::shared_ptr<const MeshOfBody> mesh = nullptr;  ///< null: the body has no mesh file
+  /// The body of the scene from which it was copied, whose meshes the file names; "" for none.
   std::string like = {};
 };
 struct RemovedBody {
@@ -45,7 +45,7 @@ struct AddedJoint {
   JointDef def;
   std::string a, b;  ///< names of its bodies; "": the world
 };
-/// What acts along the coordinates, and what it bears before it breaks.
+/// Changes of the drives along the coordinates, and of the strength of a joint.
 struct ChangedJoint {
   JointDef before, after;
 };
@@ -54,7 +54,7 @@ struct RemovedJoint {
 };
 struct AddedSpring {
   SpringDef def;
-  std::string name;  ///< in the file; "" until one is given
+  std::string name;  ///< in the file; "" until it gets one
   std::string a, b;
   ForceId id;  ///< in the world
 };
@@ -83,26 +83,26 @@ using SceneEdit = std::variant<ChangedBody, AddedBody, RemovedBody, AddedJoint, 
 
 struct SavedScene {
   std::string text;
-  std::vector<std::string> left_out;  ///< what a scene file cannot say, a line each
+  std::vector<std::string> left_out;  ///< changes that a scene file cannot represent, one per line
 };
 
-/// The text of the scene file with these changes, in order: a member is replaced or added for each
-/// value that was changed, and everything else keeps its bytes, comments and expressions included.
-/// Mesh files of added bodies are named from the folder of `file`, or from the root where that is
-/// "". A body of which the file makes several is changed under its `copies`. What names a body,
-/// joint or part that is removed, and cannot do without, goes with it. Error: the result would not
-/// be a scene, with the fault.
+/// The text of the scene file with these changes, applied in order: a member is replaced or added
+/// for each value that was changed, and everything else keeps its bytes, comments and expressions
+/// included. Mesh files of added bodies are given relative to the folder of `file`, or absolutely
+/// if that is "". A body that the file makes by a repetition is changed under its `copies`.
+/// Whatever refers to a removed body, joint or part and cannot do without it is removed too. Error:
+/// the result would not be a valid scene, with its fault.
 Result<SavedScene> save_edits(const std::string& text, const std::string& file,
                               std::span<const SceneEdit> edits);
 
-/// A scene's file with changes, from which one thing after the other is taken.
+/// A scene's file with changes, from which things are removed one after the other.
 class FileRemovals {
  public:
   FileRemovals(const std::string& text, std::span<const SceneEdit> before);
   ~FileRemovals();
-  /// What goes along.
+  /// Applies a removal; returns what was removed because it depended on it.
   std::vector<TakenAlong> take(const SceneEdit& removal);
-  /// What is left.
+  /// The remaining text.
   const std::string& text() const;
 
  private:
@@ -110,12 +110,12 @@ class FileRemovals {
   std::unique_ptr<State> state_;
 };
 
-/// What goes along with a removal that follows these changes.
+/// What would be removed because it depends on a removal that follows these changes.
 std::vector<TakenAlong> taken_along(const std::string& text, std::span<const SceneEdit> before,
                                     const SceneEdit& removal);
 
-/// What a body or mesh may be called in a scene after its file: letters, digits and _ alone, with
-/// room for a number behind it.
+/// A name for a body or mesh, from that of its file: letters, digits and _ only, and short enough
+/// for an appended number.
 std::string name_after(const std::filesystem::path& file);
 
 }  // namespace tumble

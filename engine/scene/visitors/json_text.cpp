@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// All on one line, with spaces after commas and colons.
+/// Appends a value on one line, with spaces after commas and colons.
 void one_line(const Json& value, std::string& out) {
   if (!value.is_structured() || value.empty()) {
     out += value.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Indented text with short arrays and objects on one line.
+/// Indented JSON, with short arrays and objects on one line.
 std::string pretty(const nlohmann::ordered_json& value);
 
 }  // namespace tumble

@@ -43,7 +43,8 @@ std::vector<std::string> known_names(std::string_view parameter) {
     const auto cones = all_friction_cones();
     return {cones.begin(), cones.end()};
   }
-  // What the viewer draws is unknown here: a test holds this list against all_overlays().
+  // The overlays are declared by the viewer, which this library does not know: a test compares this
+  // list with all_overlays().
   if (parameter == "overlays")
     return {"contacts",  "normals",    "forces",  "friction_cones", "aabbs",           "grid",
             "joints",    "velocities", "momenta", "total_forces",   "collision_shape", "islands",

@@ -30,11 +30,11 @@ class ObjectReader final : public StructVisitor {
   void one_of(const VariantRef& value, const Parameter& p) override;
   void part(const StructRef& value) override { value.type->parameters(value.object, *this); }
 
-  /// Faults for keys that nobody asked for.
+  /// Reports keys that no member has.
   void finish();
 
  private:
-  /// The node of a key, or null (with a fault when it is required).
+  /// The node of a key, or null (with a fault if it is required).
   const JsonNode* take(const Parameter& p);
   std::string at(std::string_view key) const;
   void check_name(const JsonNode& node, const std::string& path, const std::string& name,
@@ -43,12 +43,12 @@ class ObjectReader final : public StructVisitor {
   ReadContext& c_;
   const JsonNode& node_;
   std::string path_;
-  std::string_view shorthand_;  ///< key of the one value that a bare node stands for
+  std::string_view shorthand_;  ///< key of the member that is meant if the node is not an object
   std::vector<std::string> known_;
   bool lenient_ = false;
 };
 
-/// An array of objects, or a single one.
+/// Reads an array of objects, or a single one.
 void ObjectReader::list(const ListRef& values, const Parameter& p) {
   const JsonNode* n = take(p);
   if (!n) return;
@@ -93,7 +93,7 @@ void ObjectReader::one_of(const VariantRef& value, const Parameter& p) {
   if (chosen)
     part(value.emplace(*chosen));
   else
-    lenient_ = true;  // what the other keys mean is unknown
+    lenient_ = true;  // the meaning of the other keys is unknown
 }
 
 std::string ObjectReader::at(std::string_view key) const {

@@ -4,10 +4,11 @@
 
 namespace tumble {
 
-/// Names in one object; looking them up is linear.
+/// Greatest number of names in one object; look-up is linear.
 constexpr size_t max_names = 20000;
 
-/// Fills a struct from a JSON object: types, required and unknown keys. Ranges are the validator's.
+/// Fills a struct from a JSON object. Checks types, required and unknown keys; the validator checks
+/// ranges.
 void read_object(ReadContext& c, const JsonNode& node, const std::string& path,
                  const StructRef& out);
 

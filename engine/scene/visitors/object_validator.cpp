@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// The fault that a struct's own check finds.
+/// Passes on the faults that a struct's own check finds.
 class OwnFaults final : public Complaints {
  public:
   OwnFaults(const FaultSink& sink, const std::string& path) : sink_(sink), path_(path) {}

@@ -6,10 +6,10 @@
 
 namespace tumble {
 
-/// Where a validator puts what it finds: a full path and a message.
+/// Receives the faults found: the full path and a message.
 using FaultSink = std::function<void(std::string path, std::string message)>;
 
-/// Checks the ranges of a description that stands at a path, and calls each struct's own check().
+/// Checks the ranges of all values of a description at a path, and calls each struct's own check().
 void validate_object(const StructRef& value, const std::string& path, const FaultSink& sink);
 
 }  // namespace tumble

@@ -81,7 +81,7 @@ Json json_of(const LeafListRef& values) {
 
 class ObjectWriter final : public StructVisitor {
  public:
-  /// Leaves out what is as in `defaults`; null: nothing.
+  /// Leaves out values that are equal to those in `defaults`; null: writes all.
   explicit ObjectWriter(const Json* defaults) : defaults_(defaults) {}
 
   void field(const Leaf& value, const Parameter& p) override {
@@ -108,7 +108,7 @@ class ObjectWriter final : public StructVisitor {
     out_[std::string(p.name)] = std::move(object);
   }
   void one_of(const VariantRef& value, const Parameter& p) override {
-    if (!defaults_) return;  // the defaults of an alternative are its own
+    if (!defaults_) return;  // an alternative has its own defaults
     const StructRef alternative = value.get();
     out_[std::string(p.name)] = std::string(alternative.type->type_name);
     const Json made = write_object(alternative);
@@ -132,7 +132,7 @@ class ObjectWriter final : public StructVisitor {
   Json out_ = Json::object();
 };
 
-/// What write_all() makes of a struct as it is made.
+/// The JSON of a default-constructed struct, with all values.
 const Json& defaults_of(const StructType& type) {
   static std::mutex mutex;
   static std::map<const StructType*, Json> known;

@@ -7,7 +7,7 @@ namespace tumble {
 
 using Json = nlohmann::ordered_json;
 
-/// A leaf as it stands in a file; one that is absent is null.
+/// The JSON of a leaf; null if it is absent.
 Json to_json(const Leaf& leaf);
 inline Json to_json(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
@@ -16,9 +16,10 @@ inline Json to_json(const Quat& q) {
   return Json::array({q.w(), q.x(), q.y(), q.z()});
 }
 
-/// A struct as a JSON object, or as the value that may stand for it, without what is as it is made.
+/// A struct as a JSON object, or as its shorthand value, without members that have their default
+/// values.
 Json write_object(const StructRef& value);
-/// The same with every value, also those that are defaults.
+/// The same with all members.
 Json write_all(const StructRef& value);
 
 template <class T>

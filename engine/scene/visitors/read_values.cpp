@@ -18,7 +18,7 @@ bool is_expression(const JsonNode& node) {
          (node.string[0] == '$' || node.string[0] == '=');
 }
 
-/// The number that a node stands for, or a fault.
+/// The number given by a node, or a fault.
 std::optional<double> number(ReadContext& c, const JsonNode& node, const std::string& path) {
   if (node.is_number()) return node.number;
   if (!is_expression(node)) {
@@ -66,7 +66,8 @@ bool numbers(ReadContext& c, const JsonNode& node, const std::string& path, doub
   return ok;
 }
 
-/// A double that came out of an expression as an integer: 2.9999999999 is 3.
+/// A number from an expression as an integer, rounded if it is within rounding of one: 2.9999999999
+/// is 3.
 std::optional<double> whole(double x) {
   const double nearest = std::floor(x + 0.5);
   if (std::fabs(x - nearest) > 1e-9 * std::fmax(1, std::fabs(x))) return std::nullopt;
@@ -125,7 +126,7 @@ void read_leaf(ReadContext& c, const JsonNode& node, const std::string& path, in
   if (!value) return;
   const auto integer = whole(*value);
   if (!integer) return c.fault(node, path, "must be a whole number, got " + brief(node));
-  // Beyond int the validator's ranges cannot see the value.
+  // The validator, which works on int, cannot see values beyond its range.
   constexpr double most = std::numeric_limits<int>::max();
   if (std::fabs(*integer) > most)
     return c.fault(node, path, "must be at most 2147483647, got " + brief(node));

@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// What reading a file shares: faults, and the parameters read so far.
+/// State shared while reading a file: faults, and the parameters read so far.
 struct ReadContext {
   std::string file;
   FaultList& faults;
@@ -17,11 +17,11 @@ struct ReadContext {
   void fault(const JsonNode& node, std::string path, std::string message);
 };
 
-/// Reads a leaf, and leaves it alone after a fault. Numbers may be given as "$name" or
-/// "= expression" over the scene's parameters.
+/// Reads a leaf; after a fault it is left unchanged. Numbers may be given as "$name" or "=
+/// expression" over the scene's parameters.
 void read_value(ReadContext& c, const JsonNode& node, const std::string& path, const Leaf& out);
 
-/// The position of a name in a list of names, with a fault when it is not there.
+/// The index of a name in a list of names, with a fault if it is not there.
 std::optional<size_t> read_name(ReadContext& c, const JsonNode& node, const std::string& path,
                                 std::string_view what, const std::vector<std::string>& names);
 

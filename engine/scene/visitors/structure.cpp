@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 template <class T>
-struct TypeOf;  // of a member: how it is handed on
+struct TypeOf;  // of a member: the kind of reference that is passed on
 
 Leaf leaf_of(auto& value) {
   return TypeOf<std::remove_reference_t<decltype(value)>>::leaf(value);
@@ -109,7 +109,7 @@ struct TypeOf<std::variant<Ts...>> {
   }
 };
 
-/// The visitor that parameters() of a struct is compiled for.
+/// The visitor with which parameters() of all structs is instantiated (type erasure).
 class Eraser {
  public:
   explicit Eraser(StructVisitor& to) : to_(to) {}
@@ -187,7 +187,7 @@ const StructType& struct_type() {
   return type;
 }
 
-// Those that others begin with, and through them all that are parts of these.
+// The top-level structs; through them all structs that are part of these are instantiated.
 template const StructType& struct_type<SceneDescription>();
 template const StructType& struct_type<RobotsOfScene>();
 template const StructType& struct_type<BodyDescription>();

@@ -12,18 +12,18 @@
 
 namespace tumble {
 
-// Descriptions without their types. parameters() of a struct is a template over its visitor, and
-// was compiled anew, for all hundred structs, by each of reader, validator, writer and schema.
-// Here it is compiled once (structure.cpp), for a visitor that hands on what it is shown as
-// references of the kinds below; those four are ordinary classes. A reference is valid as long as
-// what it refers to. Whoever only looks promises by its own type not to change what it is shown.
+// Type-erased descriptions. parameters() of a struct is a template over its visitor, which reader,
+// validator, writer and schema would each instantiate for about a hundred structs. Instead it is
+// instantiated once (structure.cpp), with a visitor that passes on references of the kinds below;
+// those four are ordinary classes. A reference is valid as long as the object it refers to.
+// Visitors that only read must not change what they are passed, although references are not const.
 
 struct Leaf;
 struct StructType;
 
 struct EnumType {
   std::vector<std::string> names;
-  size_t (*get)(const void* value);  ///< place in `names`
+  size_t (*get)(const void* value);  ///< index into `names`
   void (*set)(void* value, size_t place);
 };
 struct EnumRef {
@@ -31,19 +31,19 @@ struct EnumRef {
   const EnumType* type;
 };
 
-/// A leaf that may be absent: std::optional.
+/// A leaf that may be absent (std::optional).
 struct OptionalLeafType {
   bool (*has)(const void* option);
-  Leaf (*get)(void* option);      ///< present
-  Leaf (*emplace)(void* option);  ///< makes it present, with its default
-  Leaf (*sample)();               ///< one with the default
+  Leaf (*get)(void* option);      ///< only if present
+  Leaf (*emplace)(void* option);  ///< makes it present, with its default value
+  Leaf (*sample)();               ///< a leaf with the default value
 };
 struct OptionalLeafRef {
   void* option;
   const OptionalLeafType* type;
 };
 
-/// Leaves of one type in a row: std::vector.
+/// A list of leaves of one type (std::vector).
 struct LeafListType {
   size_t (*size)(const void* list);
   Leaf (*at)(void* list, size_t i);
@@ -68,7 +68,7 @@ struct StructRef {
   const StructType* type;
 };
 
-/// A struct that may be absent: std::optional.
+/// A struct that may be absent (std::optional).
 struct OptionalType {
   const StructType* item;
   bool (*has)(const void* option);
@@ -84,7 +84,7 @@ struct OptionalRef {
   StructRef emplace() const { return {type->emplace(option), type->item}; }
 };
 
-/// Structs in a row: std::vector.
+/// A list of structs (std::vector).
 struct ListType {
   const StructType* item;
   size_t (*size)(const void* list);
@@ -101,7 +101,7 @@ struct ListRef {
   StructRef append() const { return {type->append(list), type->item}; }
 };
 
-/// Structs with names: NamedList.
+/// Structs by name (NamedList).
 struct MapType {
   const StructType* item;
   size_t (*size)(const void* map);
@@ -119,7 +119,7 @@ struct MapRef {
   StructRef add(const std::string& name) const { return {type->add(map, name), type->item}; }
 };
 
-/// One of several structs: std::variant.
+/// One of several structs (std::variant).
 struct VariantType {
   std::vector<const StructType*> alternatives;
   size_t (*index)(const void* variant);
@@ -134,7 +134,7 @@ struct VariantRef {
   StructRef emplace(size_t i) const { return {type->emplace(variant, i), type->alternatives[i]}; }
 };
 
-/// What is shown every member of a struct, in the order of the file.
+/// Is called for every member of a struct, in the order of the file.
 class StructVisitor {
  public:
   virtual ~StructVisitor() = default;
@@ -143,23 +143,25 @@ class StructVisitor {
   virtual void object(const OptionalRef& value, const Parameter& p) = 0;
   virtual void list(const ListRef& values, const Parameter& p) = 0;
   virtual void map(const MapRef& values, const Parameter& p) = 0;
-  /// The alternative whose type_name the key p.name gives; its members lie in the same object.
+  /// The alternative whose type_name is given by the key p.name; its members are in the same
+  /// object.
   virtual void one_of(const VariantRef& value, const Parameter& p) = 0;
-  /// Members of a part that lie in the same object.
+  /// A nested struct whose members are in the same object.
   virtual void part(const StructRef& value) = 0;
 };
 
-/// What is known of a struct; there is one for each.
+/// Static information about a struct; there is one object for each type.
 struct StructType {
-  std::string_view schema_name;    ///< of its definition in the schema; empty: written out in place
-  std::string_view shorthand_key;  ///< of the one value that a bare one stands for; empty: none
-  std::string_view type_name;      ///< as an alternative of a variant; empty: it is none
-  const void* defaults;            ///< one as it is made
+  /// Name of its definition in the schema; empty: it is written in place.
+  std::string_view schema_name;
+  std::string_view shorthand_key;  ///< key of the member that a bare value stands for; empty: none
+  std::string_view type_name;      ///< name as an alternative of a variant; empty: it is not one
+  const void* defaults;            ///< a default-constructed object
   void (*parameters)(void* object, StructVisitor& visitor);
   void (*check)(const void* object, Complaints& complaints);  ///< null: it has no check of its own
 };
 
-/// Of the structs that structure.cpp lists.
+/// For the structs that structure.cpp lists.
 template <class T>
 const StructType& struct_type();
 
@@ -167,7 +169,7 @@ template <class T>
 StructRef struct_ref(T& value) {
   return {&value, &struct_type<T>()};
 }
-/// For visitors that only look.
+/// For visitors that only read.
 template <class T>
 StructRef struct_ref(const T& value) {
   return {const_cast<T*>(&value), &struct_type<T>()};

@@ -12,9 +12,9 @@ std::string with_unit(double value, std::string_view unit) {
   return unit.empty() ? fmt::format("{:.12g}", value) : fmt::format("{:.12g} {}", value, unit);
 }
 
-/// The largest magnitude by unit. Lengths reach as far as positions may; velocities a few times the
-/// speed at which things orbit stars; m3/s2 (gravitational constant times mass) is that of the Sun
-/// and more; Coulomb's constant is 9e9 N m2/C2.
+/// Greatest magnitude by unit. Lengths reach as far as positions may; velocities a few times those
+/// of orbits around stars; m3/s2 (gravitational constant times mass) beyond that of the Sun;
+/// Coulomb's constant is 9e9 N m2/C2.
 double largest_magnitude(std::string_view unit) {
   static constexpr std::pair<std::string_view, double> largest[] = {
       {"m", 1e7},      {"m/s", 1e6},  {"m/s2", 1e9},   {"rad/s", 1e6},   {"deg", 1e6},

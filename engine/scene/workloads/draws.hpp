@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// The random numbers that are part of the workloads' definitions: the linear congruential
-/// generator of Knuth's MMIX (TAOCP vol. 2, 3.3.4, table 1), of which the upper 31 bits count.
+/// The random numbers of the workloads' definitions: the linear congruential generator of Knuth's
+/// MMIX (TAOCP vol. 2, 3.3.4, table 1), of which the upper 31 bits are used.
 class WorkloadDraws {
  public:
   explicit WorkloadDraws(uint64_t seed) : state_(seed) {}

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Depths of all pairs of bodies that overlap by more than a micrometre.
+/// Penetration depths of all pairs of bodies that overlap by more than a micrometre.
 struct OverlapDepths {
   double deepest = 0, sum = 0;  ///< [m]
   size_t pairs = 0;
@@ -13,24 +13,24 @@ struct OverlapDepths {
   void add(double depth);
 };
 
-/// What a run left behind, measured from poses and velocities alone: never by what found or solved
-/// the contacts.
+/// The final state of a run, measured from poses and velocities only, independently of the code
+/// that found or solved the contacts.
 struct EndState {
   OverlapDepths overlap;
   double joint_gap = 0;       ///< greatest distance of two anchors of a joint [m]
   double kinetic_energy = 0;  ///< [J]
   double fastest = 0;         ///< speed of a centre of mass [m/s]
-  size_t escaped = 0;         ///< bodies below y = -20 m, 10 km away, or nowhere
+  size_t escaped = 0;         ///< bodies below y = -20 m, farther than 10 km away, or not finite
 };
 
 bool has_escaped(const RigidBody& body);
 
-/// `bodies` are those of the workload, in its order, where the run left them. Escaped bodies count
-/// as that and as nothing else.
+/// `bodies` are those of the workload, in its order, in their final state. Escaped bodies are only
+/// counted as escaped.
 EndState measure_end_state(const Workload& w, std::span<const RigidBody> bodies);
 
-/// Pairs of shapes that may collide and overlap: by separating axes, distances of segments, or
-/// where the workload has tori, by their formula (tori_overlaps).
+/// Depths of overlapping pairs of shapes that may collide: by separating axes, by distances of
+/// segments, or, if the workload has tori, by their formula (tori_overlaps).
 OverlapDepths measure_overlaps(const Workload& w, std::span<const RigidBody> bodies);
 
 /// Bodies of the workload as they start, made without a world.

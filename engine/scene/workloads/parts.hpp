@@ -16,8 +16,9 @@ BodyDef wide_floor();
 /// Five fixed boxes, 1 m thick: a floor whose top is y = 0 and four walls.
 void add_bin(Workload& w, double half_width, double wall_height);
 
-/// Place i of a layer-by-layer stack of side by side places, `pitch` apart and centred about the
-/// y axis; layers are `pitch` apart too, the lowest at height `bottom` [m].
+/// Position of element i of a stack filled layer by layer: side x side positions per layer, `pitch`
+/// apart and centred about the y axis; layers are `pitch` apart too, the lowest at height `bottom`
+/// [m].
 Vec3 layered_place(int i, int side, double pitch, double bottom);
 
 }  // namespace tumble

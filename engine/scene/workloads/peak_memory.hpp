@@ -1,11 +1,11 @@
 #pragma once
 
-/// The most memory that this process has held, as Linux tells it (proc(5)).
+/// Peak memory of this process as Linux reports it (proc(5)).
 namespace tumble {
 
-/// Counts anew from what is held now, where the system can.
+/// Resets the peak to the present use, if the system supports that.
 void restart_peak_memory();
-/// Since the last restart [MB]; 0 where it cannot be known.
+/// Peak since the last reset [MB]; 0 if it is unknown.
 double peak_memory();
 
 }  // namespace tumble

@@ -64,7 +64,7 @@ Status run_steps(World& world, int steps, const WorkloadOptions& options, Tally&
   return {};
 }
 
-/// A particle as what measures of overlap and energy take: a solid ball of its mass.
+/// A particle in the form used to measure overlap and energy: a solid ball with its mass.
 RigidBody ball_of(const ParticleSystem& p, size_t i) {
   const double r = p.radius[i];
   BodyDef def = sphere_body(p.x[i], r);

@@ -15,11 +15,12 @@ struct StepReport;
 struct WorkloadOptions {
   WorldSettings settings;
   int threads = 1;           ///< 0: one per core
-  std::optional<int> steps;  ///< instead of the workload's
-  /// Of the world, see World::stop_with(): a run that is stopped measures nothing, and ends with an
-  /// error of code `cancelled`.
+  std::optional<int> steps;  ///< replaces the workload's number
+  /// Passed to the world, see World::stop_with(): a run that is stopped returns an error of code
+  /// `cancelled`.
   const StopFlag* stop = nullptr;
-  /// Told of every step: when it began, after the first one, and how long it took [s].
+  /// Called after every step with its start relative to that of the first one, and its duration
+  /// [s].
   std::function<void(const StepReport&, double begin, double seconds)> each;
   LogSink log;
 };
@@ -32,7 +33,7 @@ StepTimes step_times(std::vector<double> milliseconds);
 
 struct StageMean {
   std::string name;
-  double milliseconds = 0;  ///< a step, on average
+  double milliseconds = 0;  ///< mean per step
 };
 
 struct WorkloadRun {
@@ -41,14 +42,14 @@ struct WorkloadRun {
   int threads = 1;
   int steps = 0;                  ///< done
   StepTimes wall;                 ///< of World::step()
-  StepTimes cpu;                  ///< of all threads together
+  StepTimes cpu;                  ///< processor time of all threads together
   std::vector<StageMean> stages;  ///< wall time, in the order of the first step that had them
   size_t bodies = 0;              ///< dynamic
   size_t particles = 0;
   size_t joints = 0;
-  double pairs = 0, contacts = 0, contact_points = 0;  ///< a step, on average
-  double peak_memory = 0;  ///< of the process, since the bodies were made [MB]; 0: unknown here
-  MemoryUse memory;        ///< at the end, the number of contacts at hand beside it
+  double pairs = 0, contacts = 0, contact_points = 0;  ///< means per step
+  double peak_memory = 0;  ///< of the process, since the bodies were made [MB]; 0: unknown
+  MemoryUse memory;        ///< at the end, together with the number of contacts then
   uint64_t last_contacts = 0;
   double bytes_per_body() const { return bodies > 0 ? double(memory.bodies) / double(bodies) : 0; }
   double bytes_per_contact() const {
@@ -64,7 +65,7 @@ struct WorkloadWorld {
   std::unique_ptr<World> world;
   std::vector<BodyId> bodies;
   std::vector<ParticleSystemId> particles;
-  std::vector<RigidBody> states() const;  ///< of the bodies now, then of the particles as balls
+  std::vector<RigidBody> states() const;  ///< of the bodies, then of the particles as balls
 };
 Result<WorkloadWorld> build_workload(const Workload& w, const WorldDef& def);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Adds a direction unless its line is there.
+/// Adds a direction unless it, or its opposite, is in the list.
 void add_line(std::vector<Vec3>& lines, const Vec3& d) {
   for (const Vec3& l : lines)
     if (std::abs(l.dot(d)) > 1 - 1e-12) return;
@@ -51,7 +51,7 @@ Interval shadow(const std::vector<Vec3>& points, const Vec3& n) {
   return out;
 }
 
-/// How far the shadows on the line of `n` overlap; negative when they do not.
+/// Overlap of the projections on the direction `n`; negative if they are disjoint.
 double shadow_overlap(const MeasuredSolid& a, const MeasuredSolid& b, const Vec3& n) {
   const Interval of_a = shadow(a.vertices, n), of_b = shadow(b.vertices, n);
   return std::min(of_a.high - of_b.low, of_b.high - of_a.low);
@@ -77,7 +77,7 @@ double polyhedra_depth(const MeasuredSolid& a, const MeasuredSolid& b) {
   return least;
 }
 
-/// Least value of a convex function on [0, 1], by sections.
+/// Minimum of a convex function on [0, 1], by interval reduction.
 template <class F>
 double least_value(const F& f) {
   double low = 0, high = 1;
@@ -95,7 +95,7 @@ double point_segment_distance(const Vec3& x, const Vec3& a, const Vec3& b) {
   return (a + t * along - x).norm();
 }
 
-/// The least of `distance` over the core of a sphere or capsule.
+/// Minimum of `distance` over the core of a sphere or capsule.
 template <class F>
 double least_over_core(const MeasuredSolid& round, const F& distance) {
   const Vec3 &a = round.vertices.front(), &b = round.vertices.back();

@@ -49,7 +49,7 @@ Vec3 middle_of_tube(double turn) {
   return major * Vec3(det::cos(turn), 0, -det::sin(turn));
 }
 
-/// Piece k of twelve: the hull of two octagons across the tube.
+/// Piece k of twelve: the hull of two octagonal cross sections of the tube.
 BodyShapeDef segment(int k) {
   const auto turn = [](double part) { return 2 * det::pi * part / 12; };
   const Vec3 centre = middle_of_tube(turn(k + 0.5));
@@ -75,7 +75,7 @@ BodyShapeDef whole_mesh() {
   return {std::move(shape), {}, {}};
 }
 
-/// Tori with the mass properties of the smooth one fall on wavy ground, whatever their shapes.
+/// Tori with the mass properties of the smooth one, whatever their shapes, fall on wavy ground.
 Workload tori_workload(bool small, const std::vector<BodyShapeDef>& shapes) {
   const int side = small ? 3 : 8, count = small ? 16 : 200;
   const MassProperties mass = torus_mass(major, minor, 1000);

@@ -36,15 +36,15 @@ std::vector<Vec3> points_of_facets(const TriangleMesh& mesh) {
   return out;
 }
 
-/// Signed distance from the surface, in the torus's own frame.
+/// Signed distance from the surface, for a point in the torus's own frame.
 double torus_distance(const ToriOnTerrain& tori, const Vec3& x) {
   const double from_ring = std::hypot(x.x(), x.z()) - tori.major;
   return std::hypot(from_ring, x.y()) - tori.minor;
 }
 
-/// How deep a point is in the solid that a mesh bounds [m]; 0 outside. What all triangles together
-/// are seen to span tells inside from outside (A. van Oosterom, J. Strackee, "The solid angle of a
-/// plane triangle", 1983).
+/// Depth of a point inside the solid that a mesh bounds [m]; 0 outside. The total solid angle of
+/// the triangles distinguishes inside from outside (A. van Oosterom, J. Strackee, "The solid angle
+/// of a plane triangle", 1983).
 double depth_in_facets(const TriangleMesh& mesh, const Vec3& x) {
   double angle = 0, nearest2 = std::numeric_limits<double>::infinity();
   for (const auto& t : mesh.triangles) {
@@ -58,8 +58,8 @@ double depth_in_facets(const TriangleMesh& mesh, const Vec3& x) {
   return std::abs(angle) > 2 * M_PI ? std::sqrt(nearest2) : 0;
 }
 
-/// Of the smooth ground, or of its triangles: each cell is cut from its corner of greatest x to
-/// that of greatest z.
+/// Height of the smooth ground, or of its triangles: each cell is cut from its corner of greatest x
+/// to that of greatest z.
 double ground_height(const ToriOnTerrain& tori, double x, double z) {
   if (tori.cells == 0) return tori.height(x, z);
   const double size = 2 * tori.half_width / tori.cells;
@@ -88,7 +88,7 @@ double depth_in_ground(const ToriOnTerrain& tori, const std::vector<Vec3>& point
 
 double depth_in_torus(const ToriOnTerrain& tori, const std::vector<Vec3>& points,
                       const Pose& other) {
-  constexpr double facets_beyond = 0.01;  // chords across the hole are outside the smooth torus
+  constexpr double facets_beyond = 0.01;  // chords across the hole lie outside of the smooth torus
   double depth = 0;
   for (const Vec3& p : points) {
     const Vec3 x = other.inverse_point(p);

@@ -3,12 +3,13 @@
 
 namespace tumble {
 
-/// Overlaps of tori (dynamic bodies) with each other and with their ground, whatever shapes the
-/// bodies have: of points of each torus, the depth of the deepest one below the ground (vertically,
-/// 2 m at most) and inside each near torus. Smooth tori have 24 x 12 points. Where they are meshes,
-/// the points are the corners, the middles of edges and the centroids of the triangles, and what
-/// they are deep in are the facets: beside the smooth torus, meshes of 24 x 12 squares that just
-/// touch would show up to 13 mm, and 8 mm on the ground.
+/// Overlaps of tori (dynamic bodies) with each other and with their ground, independently of the
+/// shapes that the bodies have: for sample points of each torus, the greatest depth below the
+/// ground (vertically, at most 2 m) and inside each torus nearby. Smooth tori are sampled at 24 x
+/// 12 points. If they are meshes, the samples are vertices, midpoints of edges and centroids of
+/// triangles, and depths are measured in the faceted solids: measured in the smooth torus, meshes
+/// of 24 x 12 squares that just touch would seem to overlap by up to 13 mm, and by 8 mm with the
+/// ground.
 OverlapDepths tori_overlaps(const ToriOnTerrain& tori, std::span<const RigidBody> bodies);
 
 }  // namespace tumble

@@ -11,27 +11,27 @@
 
 namespace tumble {
 
-/// A joint between two bodies of a workload, by their places in its list.
+/// A joint between two bodies of a workload, given by their indices.
 struct WorkloadJoint {
   JointKind kind = JointKind::spherical;
   size_t a = 0, b = 0;
   Pose frame;  ///< in the world, at the start: origin at the anchor, z along the main axis
 };
 
-/// What the tori of a workload and their ground are by formula, for measures that need no mesh.
+/// Formulas of the tori of a workload and of their ground, for measurements that need no mesh.
 struct ToriOnTerrain {
   double major = 0, minor = 0;  ///< about the body's y axis, see torus_mass() [m]
-  double half_width = 0;        ///< the ground is there for |x|, |z| below this [m]
+  double half_width = 0;        ///< the ground extends to |x|, |z| below this [m]
   double (*height)(double x, double z) = nullptr;  ///< of the ground [m]
-  /// What each torus is, where it is a mesh and so is the ground, of `cells` x `cells` squares;
-  /// null where the smooth ones are meant.
+  /// The mesh of each torus, if tori and ground are meshes, the latter with `cells` x `cells`
+  /// squares; null if they are smooth.
   std::shared_ptr<const TriangleMesh> facets;
   int cells = 0;
 };
 
-/// A fixed piece of work by which versions of the engine, and other engines, are compared: how
-/// many steps of 1/60 s of which bodies and joints, under gravity of 9.81 m/s2, with friction 0.5
-/// and restitution 0 everywhere; no body sleeps. Every number of it is part of the definition.
+/// A fixed benchmark for comparing versions of the engine, and other engines: a number of steps of
+/// 1/60 s with given bodies and joints, under gravity of 9.81 m/s2, with friction 0.5 and
+/// restitution 0 everywhere; no body sleeps. All its numbers are part of the definition.
 struct Workload {
   std::string_view name;
   bool small = false;
@@ -43,8 +43,8 @@ struct Workload {
   std::optional<ToriOnTerrain> tori;
 };
 
-/// One entry of the list of workloads. The small variant is for peers that cannot hold the whole
-/// one, and for tests.
+/// One entry of the list of workloads. The small variant is for other engines that cannot run the
+/// full one, and for tests.
 struct WorkloadEntry {
   std::string_view name;
   std::string_view doc;

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// The head of the table of `tumble bench`.
+/// Header of the table of `tumble bench`.
 std::string bench_head();
-/// A row of it and, indented, the time of each stage.
+/// A row of the table and, indented, the time of each stage.
 std::string bench_row(const WorkloadRun& run);
 /// One JSON object with all runs: {"results": [...]}.
 std::string bench_json(std::span<const WorkloadRun> runs);

@@ -38,17 +38,17 @@ Result<std::vector<const WorkloadEntry*>> chosen(const std::vector<std::string>&
   return out;
 }
 
-/// The settings of a scene that says nothing, with overrides.
+/// Default settings with overrides.
 Result<WorldSettings> settings_with(const std::vector<std::string>& overrides) {
   const SceneRead read = read_scene("{\"tumble_scene\": 1}", "--set", {overrides});
   if (!read.ok()) return to_error(read.faults);
   return read.scene.settings;
 }
 
-/// The runs so far; of repeated ones that with the least processor time.
+/// The results so far; of repeated runs, the one with the least processor time is kept.
 class Results {
  public:
-  /// False when a repetition ended in another state.
+  /// Returns false if a repetition ended in a different state.
   bool add(WorkloadRun run) {
     for (WorkloadRun& known : runs_) {
       if (known.workload != run.workload) continue;
@@ -70,10 +70,10 @@ Error named(const WorkloadEntry& entry, Error error) {
   return error;
 }
 
-/// Runs all of them in turn, as often as asked, and prints a row as soon as it is final.
+/// Runs the workloads in turn, as often as requested, and prints a row as soon as it is final.
 int run_all(const BenchLine& line, const std::vector<const WorkloadEntry*>& entries,
             WorkloadOptions options, StageTrace& trace, Results& results) {
-  double start = 0, end = 0;  // of the present run, on the axis of the trace [s]
+  double start = 0, end = 0;  // of the present run, on the time axis of the trace [s]
   options.each = [&](const StepReport& report, double begin, double seconds) {
     trace.add(report.tick, report.stats.stages, start + begin, seconds);
     end = start + begin + seconds;

@@ -20,7 +20,7 @@ namespace {
 
 struct CheckLine {
   std::vector<std::string> files, overrides;
-  std::optional<double> seconds;  ///< of a run
+  std::optional<double> seconds;  ///< length of a run
   bool run = false;
   bool json = false;
 };
@@ -33,7 +33,7 @@ nlohmann::ordered_json fault_json(const Fault& f) {
   return out;
 }
 
-/// What the exact stepper would have to work off first.
+/// Start penetrations deeper than this are reported; the event stepper has to resolve them first.
 constexpr double worth_saying = 1e-6;  // [m]
 
 void report_overlaps(const World& world, std::vector<std::string>& warnings,
@@ -57,12 +57,12 @@ void report_overlaps(const World& world, std::vector<std::string>& warnings,
       settings.event.recovery_speed));
 }
 
-/// How long a scene runs whose assertions name no end [s]: most of what swings, falls or settles
-/// has done so by then.
+/// Length of a run if no assertion names a time [s]: most of what swings, falls or settles has done
+/// so by then.
 constexpr double unsaid_run = 10;
 
-/// Runs a scene until its assertions are decided, or for as long as the line says. True where all
-/// hold: one whose moment the run does not reach is no more known to hold than one that fails.
+/// Runs a scene until its assertions are decided, or for the time given on the command line. True
+/// if all hold; an assertion whose time is not reached counts as not holding.
 bool run_assertions(World& world, SceneAssertions& assertions, const std::optional<double>& seconds,
                     const std::string& file, nlohmann::ordered_json& out) {
   assertions.see(*world.frame());
@@ -99,7 +99,7 @@ bool run_assertions(World& world, SceneAssertions& assertions, const std::option
   return holds;
 }
 
-/// Whether the world says to each question of a lesson what the lesson says.
+/// Whether the world gives the lesson's answer to each question of a lesson.
 bool run_lesson(const SceneRequest& request, const std::string& file, nlohmann::ordered_json& out) {
   const auto checks = check_lesson(request);
   if (!checks) {
@@ -129,7 +129,8 @@ bool run_lesson(const SceneRequest& request, const std::string& file, nlohmann::
   return holds;
 }
 
-/// The replay of a pack, run to its end. True where there is none, or it ends as it was recorded.
+/// Plays the replay of a pack to its end. True if there is none, or if it ends in the recorded
+/// state.
 bool run_replay_of(const LoadedScene& scene, const std::string& file, nlohmann::ordered_json& out) {
   const auto bytes = read_file(scene.file.parent_path() / pack_replay_name);
   if (!bytes || !is_pack_file(file)) return true;
@@ -143,7 +144,7 @@ bool run_replay_of(const LoadedScene& scene, const std::string& file, nlohmann::
   return same;
 }
 
-/// The message of an error whose place may be the file that is named before it anyway.
+/// Text of an error without its place if that is the file named before it.
 std::string text_without_file(Error error, const std::string& file) {
   if (error.place == file) error.place.clear();
   return error.text();

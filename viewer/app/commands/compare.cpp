@@ -20,7 +20,8 @@ struct CompareLine {
   bool bless = false, json = false;
 };
 
-/// "2" or "2/255" steps; a value below 1 with a fraction is one of the full range.
+/// Parses a tolerance in steps of 1/255: "2" or "2/255"; a value with a fraction below 1 is one of
+/// the full range.
 Result<double> tolerance_steps(const std::string& text) {
   const auto value = parse_fraction(text, "--tolerance", true);
   if (!value) return value.error();
@@ -31,7 +32,7 @@ Result<double> tolerance_steps(const std::string& text) {
   return steps;
 }
 
-/// "0.001" or "0.1%".
+/// Parses a share: "0.001" or "0.1%".
 Result<double> share_of(std::string text) {
   const bool percent = text.ends_with('%');
   if (percent) text.pop_back();

@@ -33,12 +33,12 @@ struct MeshLine {
 
 constexpr std::string_view usual_gap = "auto";
 
-/// What is wrong with the options together.
+/// Checks combinations of options.
 Status check_line(MeshLine& line) {
   const auto bad = [](std::string text) {
     return Error{ErrorCode::invalid_argument, std::move(text), {}, {}};
   };
-  // A range check lets pass what is no number.
+  // A range check accepts NaN.
   if (std::isnan(line.scale) || std::isnan(line.density) || std::isnan(line.weld.value_or(0)))
     return bad("--scale, --density and --weld must be numbers");
   if (!line.pieces.file.empty() && !line.decompose && line.wrap.empty())
@@ -52,7 +52,7 @@ Status check_line(MeshLine& line) {
       fmt::format("--wrap={}: a gap of 1e-9 to 1e6 m, or {}, is wanted", line.wrap, usual_gap));
 }
 
-/// Puts the wrap in the place of the mesh where one is asked for.
+/// Replaces the mesh by its wrap if that is requested.
 std::optional<int> add_wrap(const MeshLine& line, TriangleMesh& mesh,
                             std::optional<WrapFacts>& facts) {
   if (line.wrap.empty()) return std::nullopt;
@@ -70,7 +70,7 @@ std::optional<int> add_wrap(const MeshLine& line, TriangleMesh& mesh,
   return std::nullopt;
 }
 
-/// What is computed only when asked for: pieces, distance field, primitives, all five side by side.
+/// Optional computations: pieces, distance field, primitives, comparison of all representations.
 std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
   if (!line.decompose && !line.sdf && !line.fit && !line.representations) return std::nullopt;
   const StopSignal stop;
@@ -162,7 +162,7 @@ void declare_wrap(Options& options, MeshLine& line) {
       .needs(wrap);
 }
 
-/// The options of pieces and distance field.
+/// Declares the options of decomposition and distance field.
 void declare_parts(Options& options, MeshLine& line) {
   const Option decompose =
       options.flag("--decompose", line.decompose, "cut it into convex pieces, for collision");

@@ -80,8 +80,8 @@ int run_open(OpenLine& line) {
   options.application.version = TUMBLE_VERSION;
   options.application.preferences_file = preferences_file();
   options.application.preferences = take_up_user_files(options.application.faults);
-  // Overrides and stepper are meant for the scene of the command line, not for those that follow.
-  // A replay is of that scene, however often it is opened.
+  // Overrides and stepper apply only to the scene of the command line, not to scenes opened later.
+  // The replay belongs to that scene, however often it is opened.
   options.application.open = [asked = line.request, aspect](const SceneWish& wish) {
     SceneRequest request;
     request.scene = wish.scene;

@@ -45,19 +45,19 @@ Error no_frames() {
   return usage("how many frames?", "give --frames N or --seconds S");
 }
 
-/// Frames until the end of a replay.
+/// Number of frames up to the end of a replay.
 uint64_t frames_of_replay(const ReplayPlayer& player, const FramesFile& plan) {
   return std::min(frames_until(player.last_tick(), plan.fps, plan.rate), most_frames);
 }
 
-/// Whether the run may have a replay, which would say how many frames there are.
+/// Whether the run may have a replay, which would determine the number of frames.
 bool may_play(const RenderLine& line) {
   const ReplayWish& wish = line.request.replay;
   return !wish.none && (!wish.file.empty() || is_pack_file(line.request.scene));
 }
 
-/// Rate, size and number of frames (none yet where a replay may say that); of saved states those
-/// that can be drawn of them, unless asked otherwise.
+/// Determines rate, size and number of frames (still unknown if a replay may determine it). For
+/// saved states, the default is all frames that can be drawn from them.
 Status parse_plan(const RenderLine& line, const SavedStates* states, FramesFile& plan) {
   if (!line.fps.empty()) {
     const auto fps = parse_fraction(line.fps, "--fps");
@@ -85,7 +85,7 @@ Status parse_plan(const RenderLine& line, const SavedStates* states, FramesFile&
   return {};
 }
 
-/// What must be equal for a resumed run to continue this one.
+/// Key of everything that must be equal for a resumed run to continue this one.
 std::string run_key(const RenderLine& line, const LoadedScene& scene, const ReplayPlayer* player,
                     const SavedStates* states, const FramesFile& plan) {
   std::string text =
@@ -162,7 +162,7 @@ int code_of(const SequenceResult& result, const StopSignal& stop) {
 
 using NextFrame = Result<std::shared_ptr<const Frame>>;
 
-/// A tick of the world, with what the replay does after it.
+/// Steps the world by a tick, then applies what the replay does after it.
 NextFrame simulate_tick(World& world, ReplayPlayer* player) {
   if (const auto stepped = world.step(); !stepped) return stepped.error();
   if (player)
@@ -170,7 +170,7 @@ NextFrame simulate_tick(World& world, ReplayPlayer* player) {
   return world.frame();
 }
 
-/// Whether a picture is made of all ticks before it, or of the last one.
+/// Whether a picture depends on all ticks before it (trails), or only on the last one.
 bool made_of_every_tick(const SceneDescription& scene, const Overlays& shown) {
   const bool arrows_of_particles = !scene.particles.empty() && (shown.velocities || shown.momenta);
   const bool paths = std::ranges::any_of(
@@ -178,7 +178,7 @@ bool made_of_every_tick(const SceneDescription& scene, const Overlays& shown) {
   return paths || scene.look.trail > 0 || shown.total_forces || arrows_of_particles;
 }
 
-/// The first state, or why the frames of the plan cannot be drawn from the states.
+/// Reads the first state; the error says why the planned frames cannot be drawn from the states.
 NextFrame begin_with(const SavedStates& states, const LoadedScene& scene, const Overlays& shown,
                      const FramesFile& plan) {
   if (scene.built.microscope)
@@ -190,7 +190,7 @@ NextFrame begin_with(const SavedStates& states, const LoadedScene& scene, const 
   return states.begin(*scene.built.world);
 }
 
-/// The part after everything is loaded.
+/// Renders the frames, once everything is loaded.
 int render_frames(const RenderLine& line, const LoadedScene& scene, ReplayPlayer* player,
                   const SavedStates* states, const ViewPoint& view, Drawing& drawing,
                   FramesFile& plan, SequenceOptions& options, const StopSignal& stop) {
@@ -233,7 +233,7 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, ReplayPlayer
   return code_of(result, stop);
 }
 
-/// Where the pictures go.
+/// Checks where the pictures are to be written.
 Status check_outputs(const RenderLine& line) {
   if (line.folder.empty() && line.video.empty())
     return usage("where to?", "give -o DIR for pictures, or --video FILE.mp4");
@@ -286,14 +286,14 @@ int run_render(RenderLine& line) {
     if (!*lock) return report(lock->error(), exit_cannot_write);
   }
   std::vector<FrameRecord> kept;
-  // Known before anything is loaded: frames that may not be touched.
+  // Checked before anything is loaded: existing frames must not be overwritten.
   if (!line.resume)
     if (auto keep = frames_to_keep(options, plan, kept); !keep)
       return report(keep.error(), exit_cannot_write);
 
   const StopSignal stop;
   line.request.log = options.log;
-  // The scene loads beside the making of the context; a resumed run may need none.
+  // The scene loads while the context is made; a resumed run may need none.
   auto loading = std::async(std::launch::async, [&line, &stop, saved] {
     const Stoppable scope(&stop.flag());
     return saved ? saved->load_scene(line.request, TUMBLE_VERSION)

@@ -38,7 +38,7 @@ struct SimulateLine {
   std::string seconds;
   std::optional<uint64_t> steps;
   std::string csv, contacts, joints, trace, replay;
-  std::string hash;  ///< empty: no; "final"; or every so many ticks
+  std::string hash;  ///< empty: none; "final"; or the number of ticks between hashes
   std::vector<std::string> asserts;
   ExportLine particles;
   bool json = false;
@@ -49,7 +49,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Everything that a run writes.
+/// All output files of a run.
 struct Outputs {
   EnergyCsv csv;
   ContactCsv contacts;
@@ -101,7 +101,8 @@ Result<std::vector<Expression>> parse_asserts(const std::vector<std::string>& te
   return out;
 }
 
-/// Judges the assertions on the final frame; prints each that fails with the values it names.
+/// Evaluates the assertions on the final frame; prints each that fails with the values of its
+/// names.
 bool judge_asserts(const std::vector<Expression>& expressions,
                    const std::vector<std::string>& texts, const BuiltScene& scene) {
   const auto frame = scene.world->frame();
@@ -120,7 +121,7 @@ bool judge_asserts(const std::vector<Expression>& expressions,
   return all;
 }
 
-/// How a run ended.
+/// Outcome of a run.
 struct RunResult {
   Status step;
   Status outputs;
@@ -136,7 +137,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   if (assertions) assertions->see(*frame);
   out.csv.add(*frame);
   result.step = out.joints.add(world);
-  (void)out.particles.add(world);  // status() has it
+  (void)out.particles.add(world);  // the error is in status()
   (void)out.states.add(world);
   result.outputs = out.status();
   while (result.step && result.outputs && world.tick() < ticks && !stop.requested()) {
@@ -166,7 +167,7 @@ RunResult run_ticks(World& world, uint64_t ticks, uint64_t hash_every, const Sto
   return result;
 }
 
-/// What every cause did to the energy.
+/// Energy contributed by every cause, as JSON.
 nlohmann::ordered_json ledger_json(const Ledger& ledger) {
   nlohmann::ordered_json out;
   for (size_t i = 0; i < ledger_lines; ++i) {
@@ -214,7 +215,8 @@ void print_summary(const World& world, const RunResult& run, bool asserted, bool
   fmt::print("{}\n", out.dump(2));
 }
 
-/// Ticks asked for, else those of the replay; an error for none, or both ways of asking.
+/// The number of ticks requested, else that of the replay; an error if neither, or both ways of
+/// giving it.
 Result<uint64_t> ticks_of(const SimulateLine& line, TickRate rate,
                           const ReplayPlayer* player = nullptr) {
   if (player && !line.steps && line.seconds.empty()) return player->last_tick();
@@ -240,7 +242,7 @@ nlohmann::ordered_json order_json(const std::optional<double>& order) {
   return order ? nlohmann::ordered_json(*order) : nlohmann::ordered_json(nullptr);
 }
 
-/// Three runs and a table in place of one run.
+/// Three runs and a table of convergence instead of one run.
 int run_convergence(SimulateLine& line) {
   const StopSignal stop;
   const Stoppable scope(&stop.flag());
@@ -253,7 +255,7 @@ int run_convergence(SimulateLine& line) {
                (*player)->source());
   const auto ticks = ticks_of(line, scene->built.world->settings().tick);
   if (!ticks) return report(ticks.error(), exit_usage);
-  line.request.log = {};  // it has said what it had to say
+  line.request.log = {};  // its warnings were already logged
   const auto measured = measure_convergence(line.request, *ticks, &stop.flag());
   if (stop.requested()) return stop.exit_code();
   if (!measured) return report(measured.error(), exit_broken_down);
@@ -269,30 +271,31 @@ int run_convergence(SimulateLine& line) {
   return exit_ok;
 }
 
-/// `--contacts FILE.json` is about the end of the run, any other file about every tick.
+/// `--contacts FILE.json` writes certificates at the end of the run, other endings a CSV row per
+/// contact and tick.
 bool asks_certificates(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json";
 }
 
-/// What could not be written, or was not to be.
+/// Exit code for an export that could not be written, or was not allowed to.
 ExitCode exit_code_of_export(const Error& error) {
   if (error.code == ErrorCode::not_found) return exit_usage;
   return error.code == ErrorCode::internal ? exit_negative : exit_cannot_write;
 }
 
-/// Whether the run may have a replay, which would say how long it is.
+/// Whether the run may have a replay, which would determine its length.
 bool may_play(const SimulateLine& line) {
   const ReplayWish& wish = line.request.replay;
   return !line.convergence && !wish.none && line.seconds.empty() && !line.steps &&
          (!wish.file.empty() || is_pack_file(line.request.scene));
 }
 
-/// A replay as part of what makes a run the same as another; empty for none.
+/// Contribution of a replay to the key that identifies equal runs; empty for none.
 std::string key_of(const ReplayPlayer* player) {
   return player ? fmt::format("replay {} {:016x}", player->last_tick(), player->last_hash()) : "";
 }
 
-/// Whether a run must begin at the beginning: something is wanted of all its ticks.
+/// Whether a run must start at tick 0, because some output needs all ticks.
 bool wants_beginning(const SimulateLine& line, const SceneAssertions* assertions,
                      const ReplayPlayer* player) {
   const bool every_hash = !line.hash.empty() && line.hash != "final";

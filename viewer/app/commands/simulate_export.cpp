@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// round(seconds * fps), without those that the last tick does not reach.
+/// round(seconds * fps), without frames after the last tick.
 uint64_t frames_within(uint64_t ticks, Fraction fps, TickRate rate) {
   constexpr uint64_t most = 10'000'000;
   const Fraction seconds{int64_t(std::min(ticks, uint64_t{1} << 40)) * rate.den, rate.num};
@@ -20,7 +20,7 @@ uint64_t frames_within(uint64_t ticks, Fraction fps, TickRate rate) {
   return frames;
 }
 
-/// Edge of the cells [m]; 0: to be chosen.
+/// Parses the edge of the cells [m]; 0: chosen automatically.
 Result<double> cell_of(const std::string& text) {
   if (text == "auto") return 0.0;
   const auto cell = parse_fraction(text, "--surface");
@@ -28,7 +28,7 @@ Result<double> cell_of(const std::string& text) {
   return cell->value();
 }
 
-/// A folder under one name, whether it is there yet or not.
+/// Canonical path of a folder, whether or not it exists.
 std::filesystem::path one_name(const std::string& folder) {
   std::error_code code;
   const auto whole = std::filesystem::absolute(std::filesystem::path(folder) / "", code);

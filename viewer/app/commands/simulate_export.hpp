@@ -6,21 +6,21 @@
 
 namespace tumble {
 
-/// The options of `tumble simulate` that save particles and states, as given.
+/// The options of `tumble simulate` for saving particles and states, as typed.
 struct ExportLine {
   std::string folder, states, format = "ply", fps = "30", surface;
   bool resume = false, force = false;
 };
 
-/// Declares them; gives --export and --states, on which the others depend.
+/// Declares the options; returns --export and --states, on which the others depend.
 std::pair<Option, Option> declare_export(Options& options, ExportLine& line);
 
-/// What they ask of a run of so many ticks: round(seconds * fps) frames, at least the first one.
-/// Error `invalid_argument` for a bad rate, and for one folder for particles and states.
+/// The options for a run of `ticks` ticks: round(seconds * fps) frames, but at least the first.
+/// Error `invalid_argument` for an invalid rate, or if particles and states have the same folder.
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
                                              const LoadedScene& scene, uint64_t ticks);
 
-/// Likewise of states; `replay`: something is done to the world that the scene does not tell of.
+/// The same for states. `replay` tells that commands outside of the scene change the world.
 Result<StateExportOptions> state_options(const ExportLine& line, const SceneRequest& request,
                                          const LoadedScene& scene, const std::string& start,
                                          const std::string& replay, uint64_t ticks);

@@ -27,7 +27,7 @@ struct VerifyLine {
   bool json = false;
 };
 
-/// The error names the option that a fault came by.
+/// Names in the error the option that caused it.
 Error of_option(Error error, std::string_view option) {
   constexpr std::string_view any = "--set";
   for (std::string* text : {&error.place, &error.message})
@@ -36,7 +36,7 @@ Error of_option(Error error, std::string_view option) {
   return error;
 }
 
-/// One of the two worlds, and how it was chosen.
+/// One of the two worlds and its options.
 struct Side {
   LoadedScene scene;
   WorldChoice choice;
@@ -66,12 +66,12 @@ Result<Side> load_side(const VerifyLine& line, std::vector<std::string> own,
   return Side{*std::move(loaded), std::move(choice)};
 }
 
-/// What is looked for, and what was found.
+/// What is compared, and the result.
 struct Comparison {
   double tolerance = 0;
   uint64_t moments = 0;
-  std::optional<Divergence> first;                 ///< beyond the tolerance
-  std::optional<ContactDifference> first_contact;  ///< of that moment
+  std::optional<Divergence> first;                 ///< first divergence beyond the tolerance
+  std::optional<ContactDifference> first_contact;  ///< at that time
   Divergence worst, last;
 
   bool beyond(const Divergence& d) const {
@@ -96,7 +96,7 @@ nlohmann::ordered_json divergence_json(const Divergence& d) {
           {"same_bits", d.same_bits}, {"what", d.what}};
 }
 
-/// What only one of the two worlds has is nowhere in the other.
+/// Distance for display; infinite if only one of the worlds has the body.
 std::string apart_words(double distance) {
   return std::isfinite(distance) ? fmt::format("by {:.3g} m", distance)
                                  : std::string("which only one of the two worlds has");
@@ -109,7 +109,7 @@ nlohmann::ordered_json differences_json(const std::vector<WorldDifference>& diff
   return out;
 }
 
-/// A value as --set takes it, but for what "" and 0 stand for.
+/// A value as --set takes it, except that defaults ("" and 0) are spelt out.
 std::string shown_value(const WorldDifference& d, const std::string& value) {
   if (d.path == "threads" && value == "0") return "one per core";
   return value.empty() ? "the best" : value;
@@ -150,8 +150,8 @@ void print_result(const Comparison& found, const std::vector<WorldDifference>& d
              apart_words(found.worst.distance));
 }
 
-/// What was said of bodies and the like is listed as it was said; of settings, numbers and machine
-/// is known what it came to.
+/// Overrides of bodies and the like are listed as typed; of settings, numbers and machine the
+/// resulting values are listed.
 std::vector<WorldDifference> all_differences(const VerifyLine& line, const Side& a, const Side& b) {
   std::vector<WorldDifference> out = differences(a.choice, b.choice);
   const auto is_chosen = [](const std::string& one) {
@@ -193,7 +193,7 @@ int run_verify(const VerifyLine& line) {
       found.first_contact = first_contact_difference(*world_a.frame(), *world_b.frame());
     csv.append(fmt::format("{},{},{},{},{},\"{}\"\n", d.time, d.distance, d.angle, d.speed,
                            int(d.same_bits), d.what));
-    // Without a file nobody asks how it goes on.
+    // Without a CSV file, nothing after the first divergence is needed.
     return !stop.requested() && (csv.wanted() || !found.first);
   });
   if (stop.requested()) return stop.exit_code();

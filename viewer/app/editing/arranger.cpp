@@ -10,13 +10,13 @@ namespace {
 using Bodies = std::vector<BodyId>;
 using Start = std::vector<std::pair<BodyId, BodyDef>>;
 
-/// On the simulation thread.
+/// Runs on the simulation thread.
 void displace(World& world, const Bodies& bodies, Start& start, const Displacement& way, bool held,
               const DeedEdits& edits, const Refusal& refusal) {
   if (start.empty())
     for (const BodyId id : bodies)
       if (auto def = world.body_def(id)) start.emplace_back(id, *std::move(def));
-  // All of them or none.
+  // All bodies are changed, or none.
   Start moved;
   std::vector<SceneEdit> changes;
   for (const auto& [id, before] : start) {
@@ -73,7 +73,7 @@ std::optional<Displacement> Arranger::asked(const HandleSettings& settings,
                                             bool snap, const std::optional<Pick>& hit) const {
   if (handles_.active()) return handles_.drag(view, x, y, snap);
   if (!hit || bounds_.empty()) return std::nullopt;
-  // It stands on the face under the pointer, as far out as its box reaches.
+  // The body stands on the face under the pointer, as far out as its bounding box reaches.
   const Vec3& n = hit->normal;
   const double below = -(n.cwiseMin(0).dot(bounds_.max) + n.cwiseMax(0).dot(bounds_.min));
   Vec3 at = hit->x_world;

@@ -16,34 +16,36 @@ namespace tumble {
 
 struct RenderScene;
 
-/// Moves, turns and scales the selected bodies: by handles that stand at the main one, or by
-/// dragging one of them over what is there, so that it stands on the face under the pointer.
+/// Moves, rotates and scales the selected bodies: by handles at the primary one, or by dragging one
+/// of them over the scene, so that it stands on the face under the pointer.
 class Arranger {
  public:
-  /// Where handles stand: at the main body's centre of mass. Nothing without a selection.
+  /// The frame of the handles: at the primary body's centre of mass. Empty without a selection.
   static std::optional<Pose> frame_of(const Frame& shown, const Selection& selection,
                                       const HandleSettings& settings);
 
-  /// A drag begins at a point of the picture: on a handle, or on the body itself.
+  /// Begins a drag at a point of the picture: on a handle, or on the body itself.
   void begin(const Frame& shown, const Selection& selection, const HandleSettings& settings,
              const Handles::View& view, double x, double y);
   bool active() const { return active_; }
-  /// Where the pointer asks the bodies to be. `hit`: what is under it that is not being moved.
+  /// The displacement that corresponds to the pointer's place. `hit`: what is under it, apart from
+  /// the bodies being moved.
   std::optional<Displacement> drag(const HandleSettings& settings, const Handles::View& view,
                                    double x, double y, bool snap, const std::optional<Pick>& hit);
-  /// Where it asked them to be last.
+  /// The last displacement.
   const std::optional<Displacement>& last() const { return last_; }
   std::span<const BodyId> bodies() const { return bodies_; }
   void end();
 
-  /// Puts the bodies where `way` asks, from where they were when the deed began; what that changes
-  /// about the scene's file is noted in `edits`. In a world that runs they stand still while held.
+  /// Displaces the bodies by `way` relative to their definitions at the begin of the drag, and
+  /// records the changes to the scene's file in `edits`. In a running simulation they are held at
+  /// rest during the drag.
   void apply(Session& session, const Displacement& way, DeedEdits edits, Refusal refusal) const;
-  /// The same in one go, for numbers that were typed.
+  /// The same in one step, for typed numbers.
   static void apply_once(Session& session, const Selection& selection, const Displacement& way,
                          DeedEdits edits, Refusal refusal);
 
-  /// The handles at the selected bodies, that under the pointer lit.
+  /// Draws the handles at the selected bodies, with the one under the pointer highlighted.
   void draw(const Frame& shown, const Selection& selection, const HandleSettings& settings,
             const Handles::View& view, double x, double y, RenderScene& out) const;
 
@@ -52,14 +54,14 @@ class Arranger {
                                     double x, double y, bool snap,
                                     const std::optional<Pick>& hit) const;
 
-  /// The bodies' definitions when the deed began; filled and read on the simulation thread.
+  /// The bodies' definitions at the begin of the drag; filled and read on the simulation thread.
   using Start = std::vector<std::pair<BodyId, BodyDef>>;
 
   Handles handles_;
   std::vector<BodyId> bodies_;
   std::shared_ptr<Start> start_;
   Pose frame_;
-  Aabb bounds_;  ///< of the body that is dragged itself, about the frame's origin
+  Aabb bounds_;  ///< bounds of the body dragged directly, relative to the frame's origin
   std::optional<Displacement> last_;
   bool active_ = false;
 };

@@ -15,26 +15,27 @@
 namespace tumble {
 namespace {
 
-/// New bodies are about this share of the distance they are looked at from.
+/// Size of new bodies over the distance from which they are viewed [-].
 constexpr double size_in_view = 0.1;
-/// One after the other, so that what is built beside each other can be told apart; linear.
+/// Used in turn, so that neighbouring new bodies can be told apart; linear.
 const std::array<Vec3f, 6> colours_of_new = {
     Vec3f(0.02f, 0.22f, 0.20f), Vec3f(0.66f, 0.13f, 0.07f), Vec3f(0.75f, 0.42f, 0.03f),
     Vec3f(0.07f, 0.25f, 0.55f), Vec3f(0.45f, 0.30f, 0.17f), Vec3f(0.30f, 0.32f, 0.35f)};
-/// Springs swing the lighter of their bodies so often [Hz], damped by this share of critical.
+/// Natural frequency of new springs with the lighter of their bodies [Hz], and their damping ratio
+/// [-].
 constexpr double spring_frequency = 2, spring_damping = 0.1;
 
-/// Of new motors: a turn in four seconds, which one sees [rad/s].
+/// Speed of new motors: a turn in four seconds, which is easy to see [rad/s].
 constexpr double motor_rate = 0.5 * std::numbers::pi;
 
-/// 1, 2 or 5 times a power of ten: what people would type.
+/// Rounds to 1, 2 or 5 times a power of ten.
 double round_length(double length) {
   const double decade = std::pow(10.0, std::floor(std::log10(length)));
   const double share = length / decade;
   return decade * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
 }
 
-/// The frame of the body's definition, where definitions have their anchors.
+/// The frame of the body's definition, in which anchors are given.
 Pose definition_frame(const Frame& frame, uint32_t slot) {
   const Pose& centre = frame.body(slot).pose;
   return {centre.x - centre.direction(frame.info(slot).centre_body), centre.q};
@@ -47,7 +48,7 @@ std::string name_of(const Frame& frame, BodyId id) {
   return name.empty() ? fmt::format("body {}", id.index) : name;
 }
 
-/// "" for the world.
+/// The body's name in scene files; "" for the world.
 std::string file_name_of(const Frame& frame, BodyId id) {
   const auto slot = find_slot(frame, id);
   return slot ? frame.info(*slot).name : std::string();
@@ -60,7 +61,7 @@ Result<Added> add_joint(World& world, JointDef joint, const std::string& a, cons
   return Added{AddedJoint{std::move(joint), a, b}, {}};
 }
 
-/// How far a box reaches from the origin against `normal`.
+/// Distance by which a box extends from the origin in the direction opposite to `normal` [m].
 double reach_below(const Aabb& box, const Vec3& normal) {
   double reach = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -76,7 +77,7 @@ double reach_below(const ShapeDef& def, const Vec3& normal) {
   return shape ? reach_below((*shape)->bounds(Pose{}), normal) : 0;
 }
 
-/// Adds it under a name and in a colour of its own.
+/// Gives the new body an unused name and a colour.
 Addition addition_of(const BodyDef& def, const std::shared_ptr<const MeshOfBody>& mesh) {
   return {"Add " + def.name, [def, mesh](World& world) -> Result<Added> {
             BodyDef named = def;
@@ -88,7 +89,7 @@ Addition addition_of(const BodyDef& def, const std::shared_ptr<const MeshOfBody>
           }};
 }
 
-/// Only what can move counts; two fixed ends give nothing to pull.
+/// The mass of the lighter movable body; if both are fixed the spring has nothing to pull.
 double lighter_mass(const Frame& frame, BodyId a, BodyId b) {
   double mass = 0;
   for (const BodyId id : {a, b})
@@ -115,7 +116,7 @@ Addition Builder::body(const BuildChoice& choice, const Vec3& at, const Vec3& no
     if (p.number) part.shape.*p.number *= size;
     if (p.vector) part.shape.*p.vector *= size;
   }
-  // Half-axes of 1/2 make an ellipsoid a ball.
+  // An ellipsoid with half axes of 1/2 is a ball.
   part.material = built_in_materials()[choice.material].second;
   BodyDef def;
   def.name = entry.name;
@@ -180,7 +181,7 @@ std::optional<Addition> Builder::connection(const BuildChoice& choice, const Fra
     joint.drives[0].motor.kind = MotorKind::velocity;
     joint.drives[0].motor.target = motor_rate;
   }
-  if (!other_slot) {  // the world comes first
+  if (!other_slot) {  // the world is given first
     std::swap(joint.a, joint.b);
     std::swap(joint.frame_a, joint.frame_b);
   }

@@ -12,36 +12,36 @@
 
 namespace tumble {
 
-/// What was added to the world.
+/// The result of adding something to the world.
 struct Added {
-  SceneEdit edit;  ///< what it changes about the scene's file
-  BodyId body;     ///< null where it is no body
+  SceneEdit edit;  ///< the change to the scene's file
+  BodyId body;     ///< null if it is not a body
 };
 
-/// What a click adds to the world.
+/// Something to be added by a click.
 struct Addition {
-  std::string what;  ///< the deed, as undo names it
+  std::string what;  ///< description for undo
   std::function<Result<Added>(World&)> make;
 };
 
-/// Puts new bodies, joints and springs where a person clicks. A body takes one click, on what it is
-/// to stand on; a joint or spring two: the first says which body and where the anchor and the main
-/// axis are (across the surface), the second which other body, or none for the world.
+/// Places new bodies, joints and springs by clicks. A body takes one click on what it is to stand
+/// on; a joint or spring takes two: the first gives a body, the anchor and the main axis (along the
+/// surface normal), the second the other body, or none for the world.
 class Builder {
  public:
-  /// Of new things that are looked at from this far [m].
+  /// Default size of new things for a viewing distance [m].
   static double usual_size(double view);
-  /// `view` [m]: how far away the picture is looked at, where nothing was hit.
+  /// Handles a click. `view`: viewing distance, used if nothing was hit [m].
   std::optional<Addition> click(const BuildChoice& choice, const Frame& frame, const Ray& ray,
                                 const std::optional<Pick>& hit, double view);
-  /// The same of a mesh file.
+  /// The addition of a body with a mesh from a file.
   static Addition mesh_body(const BuildChoice& choice, const PaletteMesh& mesh, const Vec3& at,
                             const Vec3& normal);
-  /// The first end is known, the second awaited.
+  /// Whether the first end of a joint or spring is given.
   bool half_way() const { return first_.has_value(); }
-  /// Forgets the first end.
+  /// Drops the first end.
   void cancel() { first_.reset(); }
-  /// Shows the first end: its anchor, and the axis where the joint has one.
+  /// Draws the first end: its anchor, and the axis if the joint has one.
   void draw(const BuildChoice& choice, const Frame& frame, RenderScene& picture) const;
 
  private:
@@ -51,7 +51,7 @@ class Builder {
 
   struct End {
     BodyId body;
-    Pose frame_body;  ///< anchor, z along the normal; in the definition's body frame
+    Pose frame_body;  ///< anchor, z along the normal; in the frame of the body's definition
   };
   std::optional<End> first_;
 };

@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-/// Around all of the group's shapes that have an end.
+/// Bounds of all bounded shapes of the group.
 Aabb bounds_of(const CopiedBodies& group) {
   Aabb out;
   for (const BodyDef& body : group.bodies)

@@ -13,28 +13,28 @@
 
 namespace tumble {
 
-/// Where pasted bodies come to stand: on a face with this normal.
+/// Where to paste bodies: on a face with this normal.
 struct PastePlace {
   Vec3 x = Vec3::Zero();
   Vec3 normal = Vec3::UnitY();
 };
 
-/// Bodies that were copied, to be pasted into this scene or another.
+/// Copied bodies, to be pasted into this scene or another.
 class BodyClipboard {
  public:
-  /// Takes what the bodies of a scene are at this moment.
+  /// Copies the present state of bodies of a scene.
   void copy(Session& session, const Selection& bodies, const std::string& scene);
-  /// Nothing was copied.
+  /// Whether there is nothing to paste.
   bool empty() const { return count_ == 0; }
   size_t count() const { return count_; }
-  /// Copies of them in a scene, so that the box around them stands in the middle of the place.
+  /// Pastes copies into a scene, with the centre of their bounding box above the place.
   std::future<std::vector<BodyId>> paste(Session& session, const std::string& scene,
                                          const PastePlace& place, DeedEdits edits,
                                          Refusal refusal) const;
 
  private:
   size_t count_ = 0;
-  std::string scene_;                    ///< that they are of
+  std::string scene_;                    ///< the scene that they come from
   std::shared_ptr<CopiedBodies> group_;  ///< filled and read on the simulation thread
 };
 

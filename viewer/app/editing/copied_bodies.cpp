@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Nothing where the id is that of a body outside the group.
+/// The index of a body in the group; empty if it is outside the group.
 std::optional<CopiedBodies::End> end_of(const std::vector<BodyId>& taken, BodyId id) {
   if (id.is_null()) return CopiedBodies::End{};
   const auto at = std::ranges::find(taken, id);
@@ -18,13 +18,13 @@ std::optional<CopiedBodies::End> end_of(const std::vector<BodyId>& taken, BodyId
   return CopiedBodies::End(size_t(at - taken.begin()));
 }
 
-/// Nothing for anchors at particles, and at bodies outside the group.
+/// The same for an anchor; empty for anchors at particles, and at bodies outside the group.
 std::optional<CopiedBodies::End> end_of(const std::vector<BodyId>& taken, const Anchor& anchor) {
   if (anchor.kind == Anchor::Kind::particle) return std::nullopt;
   return end_of(taken, anchor.kind == Anchor::Kind::body ? anchor.body : BodyId{});
 }
 
-/// The copies, of which the world knows nothing before its next tick.
+/// The ids of the copies, which the world creates only at its next tick.
 struct Made {
   std::vector<BodyId> ids;
   std::vector<std::string> names, joints;  ///< of bodies, of joints
@@ -105,7 +105,7 @@ Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, 
     def.pose = way * def.pose;
     def.name = new_body_name(world, def.name, made.names);
     def.starts_asleep = false;
-    def.course = nullptr;  // its way begins where the original began
+    def.course = nullptr;  // its course begins where the original's begins
     const auto id = world.create_body(def);
     if (!id) return id.error();
     made.ids.push_back(*id);

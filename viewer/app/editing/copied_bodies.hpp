@@ -11,10 +11,10 @@ namespace tumble {
 
 class World;
 
-/// Bodies with the joints and springs between them, and joints that hold them to the world: what is
-/// copied. Depends on no world, so that it may come into another one.
+/// Copied bodies, with the joints and springs between them and joints that attach them to the
+/// world. Independent of any world, so that they can be added to another one.
 struct CopiedBodies {
-  /// One of `bodies`, or none: the world.
+  /// An index into `bodies`; none: the world.
   using End = std::optional<size_t>;
   struct Joint {
     JointDef def;
@@ -31,13 +31,13 @@ struct CopiedBodies {
   bool empty() const { return bodies.empty(); }
 };
 
-/// The bodies as they are now; those that are gone are left out.
+/// Copies bodies in their present state; those that no longer exist are left out.
 CopiedBodies take_copies(const World& world, std::span<const BodyId> bodies);
 
-/// Copies of the group into a world, displaced by `way` (world axes: x -> way.point(x)), with names
-/// of their own, awake. What that changes about the scene's file is noted in `edits`: where the
-/// originals are `of_this_scene`, the file names their meshes. Error: a body that cannot be made;
-/// those before it are there.
+/// Adds copies of the group to a world, displaced by `way` (world axes: x -> way.point(x)), with
+/// new names, awake. Changes to the scene's file are recorded in `edits`; if the originals are
+/// `of_this_scene`, meshes are referred to by their names in the file. Error: a body that cannot be
+/// created; those before it remain.
 Result<std::vector<BodyId>> add_copies(World& world, const CopiedBodies& group, const Pose& way,
                                        std::vector<SceneEdit>& edits, bool of_this_scene);
 

@@ -18,14 +18,15 @@ std::shared_ptr<const TriangleMesh> grown_mesh(const TriangleMesh& mesh, double 
   return grown;
 }
 
-/// What is made of a mesh by lengths grows with it.
+/// Scales lengths that belong to the mesh's collision representation.
 void grow_mesh(ShapeDef& shape, double factor) {
   shape.mesh = grown_mesh(*shape.mesh, factor);
   shape.field = nullptr;
   shape.cell *= factor;
 }
 
-/// The meshes that shapes stand for, each once. What was stretched along one axis stands for none.
+/// Scales the source meshes of shapes, each once. A mesh stretched along one axis has no source any
+/// more.
 void grow_sources(BodyDef& def, const Displacement& way) {
   const double factor = way.scale;
   std::map<std::shared_ptr<const MeshSource>, std::shared_ptr<const MeshSource>> grown;
@@ -53,14 +54,14 @@ void grow(ShapeDef& shape, double factor) {
   }
 }
 
-/// Along an axis of the shape's frame.
+/// Scales along an axis of the shape's frame.
 void stretch(ShapeDef& shape, double factor, int axis) {
   const auto& parameters = shape_entry(shape.type).parameters;
   const bool has_height = std::ranges::any_of(
       parameters, [](const ShapeParameter& p) { return p.number == &ShapeDef::height; });
   for (const ShapeParameter& p : parameters) {
     if (p.vector) (shape.*p.vector)[axis] *= factor;
-    // Round shapes stand along y; one without a height is a ball.
+    // The axis of round shapes is y; a shape without a height is a ball.
     if (!p.number) continue;
     const bool is_height = p.number == &ShapeDef::height;
     if (!has_height || is_height == (axis == 1)) shape.*p.number *= factor;

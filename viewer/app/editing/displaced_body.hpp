@@ -5,11 +5,10 @@
 
 namespace tumble {
 
-/// A body moved, turned and grown as handles ask. Its shapes grow with it, and with them a mass
-/// that is theirs; a mass that its definition names stays. What grows along one axis only grows
-/// along the axis of each shape that is nearest to it: a box gets longer, a cylinder higher or
-/// wider. Refused where a body cannot grow so: meshes, and inertia given as numbers, grow in all
-/// directions alike.
+/// A body moved, rotated and scaled by handles. Its shapes are scaled, and with them a mass
+/// computed from the shapes; a mass given in its definition stays. Scaling along one axis acts on
+/// the axis of each shape that is nearest to it: a box gets longer, a cylinder higher or wider.
+/// Fails for what can only be scaled uniformly: meshes, and inertia given as numbers.
 Result<BodyDef> displaced(const BodyDef& def, const Displacement& way);
 
 }  // namespace tumble

@@ -10,28 +10,28 @@
 
 namespace tumble {
 
-/// Makes copies of bodies, with what joins them. The first copies stand beside their originals. Who
-/// then moves the copies and asks for others gets them moved in the same way once more, so that
-/// rows, stairs and rings come out of a few copies.
+/// Copies bodies together with their joints. The first copies are placed beside their originals. If
+/// the user then moves the copies and copies again, the displacement is repeated, so that rows,
+/// stairs and rings can be made.
 class Duplicator {
  public:
-  /// Copies of `bodies`, by `aside` [m] where nothing is to be repeated. `repeat` false: what lies
-  /// between originals and copies is the work of physics, and nobody's wish. What it changes about
-  /// the scene's file is noted in `edits`.
+  /// Copies `bodies`, shifted by `aside` [m] if there is no displacement to repeat. With `repeat`
+  /// false, the present displacement between originals and copies is due to the simulation and is
+  /// ignored. Changes to the scene's file are recorded in `edits`.
   void copy(Session& session, const Selection& bodies, const Vec3& aside, bool repeat,
             DeedEdits edits);
-  /// Bodies that somebody else makes: selected as soon as they are there, but not repeated.
+  /// Bodies created elsewhere: selected as soon as they exist, but not repeated.
   void await(std::future<std::vector<BodyId>> copies);
-  /// The copies that were asked for last, once, as soon as the frame has them.
+  /// The copies requested last, once, as soon as the frame contains them.
   std::vector<BodyId> take(const Frame& shown);
-  /// Another world is shown.
+  /// To be called when another world is shown.
   void forget() { *this = Duplicator{}; }
 
  private:
-  BodyId original_;             ///< of the last time, the main one
-  std::vector<BodyId> copies_;  ///< the main one last
+  BodyId original_;             ///< the primary original of the last time
+  std::vector<BodyId> copies_;  ///< the primary copy last
   std::future<std::vector<BodyId>> made_;
-  bool awaited_ = false;  ///< the copies are made and were not taken
+  bool awaited_ = false;  ///< the copies were requested but not taken yet
 };
 
 }  // namespace tumble

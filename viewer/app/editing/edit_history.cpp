@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 constexpr size_t most_deeds = 200;
-/// Memory for the moments of all deeds [bytes]; the newest deed is kept whatever it takes.
+/// Memory for the moments of all deeds [bytes]; the newest deed is kept whatever its size.
 constexpr size_t most_bytes = size_t{256} << 20;
 
 }  // namespace

@@ -12,50 +12,49 @@
 
 namespace tumble {
 
-/// What a person did to the world, in order, to be taken back and done again. A deed is a name and
-/// the moment of the world just before it: taking it back goes to that moment, with the past that
-/// it had, and time goes on from there. Doing it again goes to the moment at which it was taken
-/// back.
+/// Undo history of the user's changes. A change (deed) consists of its description and a snapshot
+/// of the world just before it: undo restores that snapshot, including its past, and the simulation
+/// continues from there. Redo restores the moment at which the change was undone.
 class EditHistory {
  public:
-  /// Somebody is about to do `what` ("Delete crate"). What has been taken back is forgotten. Gives
-  /// where to note what the deed changes about the scene's file.
+  /// Begins a change `what` ("Delete crate"); changes that were undone are dropped. Returns the
+  /// list in which to record what it changes about the scene's file.
   DeedEdits begin(Session& session, std::string what, uint64_t tick, std::vector<BodyId> selected);
-  /// Somebody did something beside the world. `exchange` puts what was before in the place of what
-  /// is now, and what is now in its own: taking back and doing again are the same.
+  /// Records a change that does not concern the world. `exchange` swaps the former and the present
+  /// state, so that it serves both undo and redo.
   void note_beside(std::string what, std::function<void()> exchange);
-  /// A moment that was left behind and is there again.
+  /// Result of going back or forth.
   struct Back {
-    std::string what;              ///< the deed
-    std::vector<BodyId> selected;  ///< the bodies that were selected then
-    bool beside = false;           ///< the world is as it was
+    std::string what;              ///< description of the change
+    std::vector<BodyId> selected;  ///< bodies selected at the restored moment
+    bool beside = false;           ///< the world was not changed
   };
-  /// Goes back to before the newest deed that holds; nothing when there is none. `selected`: now.
+  /// Undoes the newest change; empty if there is none. `selected`: the present selection.
   std::optional<Back> undo(Session& session, std::vector<BodyId> selected);
-  /// Goes to where the deed that was taken back last still held.
+  /// Redoes the change undone last; empty if there is none.
   std::optional<Back> redo(Session& session, std::vector<BodyId> selected);
-  /// The newest deed has come to nothing: all is as it was before it.
+  /// Drops the newest change, which had no effect.
   void drop_newest() { done_.pop_back(); }
-  /// Another world is shown.
+  /// To be called when another world is shown.
   void forget() { *this = EditHistory{}; }
 
-  /// Of the deeds that hold, in order.
+  /// The edits of the scene's file by all changes in effect, in order.
   std::vector<DeedEdits> file_edits() const;
-  /// What the deeds to the world that hold are, and their edits, in order.
+  /// Descriptions and edits of all changes of the world in effect, in order.
   std::vector<std::pair<std::string, DeedEdits>> deeds() const;
-  /// Of deeds that are too old to be taken back.
+  /// Edits of changes that are in effect but too old to be undone.
   const std::vector<DeedEdits>& forgotten() const { return forgotten_; }
-  /// Of the newest deed to the world, which must be there.
+  /// Edits of the newest change of the world, which must exist.
   DeedEdits newest() const;
-  /// At which ticks the deeds to the world that hold were done.
+  /// The ticks at which the changes of the world in effect were made.
   std::vector<uint64_t> ticks() const;
-  /// The same of those since the world was restarted last, on the course of history that is shown.
+  /// The same for changes since the last restart, on the present course of the run.
   std::vector<uint64_t> ticks_of_this_course() const;
-  /// The world is restarted: what was done in the run that was left is not done in this one.
+  /// To be called when the world is restarted: earlier changes were not made in this run.
   void begin_course() { course_ = ++courses_; }
-  /// What was done last; "": nothing that can be taken back.
+  /// Description of the newest change; "": there is nothing to undo.
   std::string last() const { return done_.empty() ? std::string() : done_.back().what; }
-  /// No deed to the world can be taken back.
+  /// Whether no change of the world can be undone.
   bool empty() const;
 
  private:
@@ -65,19 +64,20 @@ class EditHistory {
     DeedEdits edits;
     std::shared_ptr<const Session::Kept> moment;
     std::vector<BodyId> selected;  ///< at that moment
-    int course = 0;                ///< of history, that moment is on
-    /// Of a deed beside the world, which has neither edits nor a moment.
+    int course = 0;                ///< the course of the run to which that moment belongs
+    /// For a change that does not concern the world, which has neither edits nor a moment.
     std::function<void()> exchange{};
   };
-  /// Back to the moment of the newest deed of `from`; with the moment of now it goes to `to`.
+  /// Goes to the moment of the newest change of `from`; the change moves to `to` with the present
+  /// moment.
   std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
                          std::vector<BodyId> selected);
   void drop_oldest();
 
-  std::vector<DeedEdits> forgotten_;  ///< of deeds too old to be taken back
+  std::vector<DeedEdits> forgotten_;  ///< edits of changes too old to be undone
   std::deque<Deed> done_;             ///< with the moment before each
   int course_ = 0, courses_ = 0;
-  std::deque<Deed> undone_;  ///< with the moment at which each was taken back; the newest last
+  std::deque<Deed> undone_;  ///< with the moment at which each was undone; the newest last
 };
 
 }  // namespace tumble

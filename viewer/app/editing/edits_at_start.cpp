@@ -6,8 +6,8 @@
 namespace tumble {
 namespace {
 
-/// The definition after a change that was made at another moment: of what moves by itself only that
-/// which the change was about.
+/// The definition after a change made at another moment: of quantities that the motion changes,
+/// only those that the edit itself has changed.
 BodyDef changed_at_start(const BodyDef& now, const ChangedBody& c) {
   BodyDef def = c.after;
   if (c.after.pose.x == c.before.pose.x) def.pose.x = now.pose.x;
@@ -20,11 +20,11 @@ BodyDef changed_at_start(const BodyDef& now, const ChangedBody& c) {
   return def;
 }
 
-/// Each change in the world. What was put there by an earlier run may have another id by now, so
-/// that all is found by its name.
+/// Applies each edit in the world. Things are found by name, since ids may have changed since an
+/// earlier run.
 struct AtStart {
   World& world;
-  SceneDescription parts;  ///< as far as the changes have come
+  SceneDescription parts;  ///< as changed by the edits so far
   LiveParts& live;
 
   Status operator()(const ChangedBody& c) {
@@ -100,7 +100,7 @@ void do_at_start(World& world, const std::vector<DeedEdits>& deeds,
     for (SceneEdit& edit : *deed) {
       fold_part(at_start.parts, edit);
       Status done = std::visit(at_start, edit);
-      // Names are found among what has been carried out.
+      // Later edits refer by name to what earlier ones have created.
       if (done) done = world.apply_commands();
       if (!done) refusal.say(done.error());
     }

@@ -26,7 +26,7 @@ void MeshModes::change(const ChangeMeshMode& wish) {
   if (changing() || !wish.source) return;
   change_ = std::async(std::launch::async, [this, wish] {
     const Stoppable scope(&stop_);
-    // Numbers that belong to the old way do not hold for the new one.
+    // Options of the former representation do not apply to the new one.
     return Change{wish, mesh_parts(wish.source->mesh, {.mode = wish.mode})};
   });
 }

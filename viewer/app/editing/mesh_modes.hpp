@@ -8,9 +8,9 @@
 
 namespace tumble {
 
-/// Makes and measures what meshes collide as, on a thread of its own, so that neither the picture
-/// nor the simulation waits. One piece of work at a time: of what is asked for meanwhile nothing is
-/// begun.
+/// Computes and measures collision representations of meshes on a thread of its own, so that
+/// neither drawing nor simulation waits. One computation at a time; requests made meanwhile are
+/// ignored.
 class MeshModes {
  public:
   MeshModes() = default;
@@ -21,21 +21,21 @@ class MeshModes {
   void measure(const MeasureMesh& wish);
   void change(const ChangeMeshMode& wish);
 
-  /// The shapes that were asked for, or why there are none.
+  /// The requested shapes, or why there are none.
   struct Change {
     ChangeMeshMode wish;
     Result<MeshParts> parts;
   };
-  /// Takes what has been finished: a change, once; a measurement is kept.
+  /// Takes a finished result: a change is returned once, a measurement is kept.
   std::optional<Change> take();
-  /// A change that is still being made is for a world that is gone.
+  /// A change under way was for a world that is no longer shown.
   void forget() { forgotten_ = changing(); }
   std::shared_ptr<const MeasuredMesh> measured() const { return measured_; }
   bool changing() const { return change_.valid(); }
   bool measuring() const { return measurement_.valid(); }
 
  private:
-  StopFlag stop_;  ///< before the futures, whose threads look at it until they are gone
+  StopFlag stop_;  ///< declared before the futures, whose threads use it until they end
   std::future<Change> change_;
   std::future<std::shared_ptr<const MeasuredMesh>> measurement_;
   std::shared_ptr<const MeasuredMesh> measured_;

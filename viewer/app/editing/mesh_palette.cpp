@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-/// So many times larger or smaller than what one looks at, a mesh is in other units.
+/// If a mesh is this many times larger or smaller than the view, its file is assumed to have other
+/// units.
 constexpr double another_unit = 8;
 
 bool is_utf8(const std::string& text) {
@@ -22,7 +23,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-/// 1, or the power of ten that brings it to the size of what is looked at.
+/// 1, or the power of ten that brings the mesh nearest to the size of the view.
 double scale_for(const Aabb& box, double view_size) {
   const double size = box.extent().maxCoeff();
   if (!(size > 0 && view_size > 0)) return 1;
@@ -46,7 +47,7 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
   if (!imported) return imported.error();
   out.scale = scale_for(bounds(imported->mesh), view_size);
   if (out.scale != 1) {
-    // As a scene reads it that names this scale.
+    // Cleaned up as for a scene that gives this scale.
     options.scale = out.scale;
     imported = import_mesh(chosen.file, options);
     if (!imported) return imported.error();
@@ -63,7 +64,8 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
 
 void MeshPalette::choose(const NewMesh& mesh, double view_size, bool beside) {
   if (wanted_ == mesh) return;
-  // Nobody wants what is under way any more. It ends soon, and this is asked for once more then.
+  // The file being read is no longer wanted: it is cancelled, and the new one started by a later
+  // call.
   if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
     return stop_.request();
   stop_.clear();

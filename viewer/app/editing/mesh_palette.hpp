@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// A mesh file that is ready to be placed.
+/// A mesh ready to be placed.
 struct PaletteMesh {
   NewMesh chosen;
   double scale = 1;  ///< metres per unit of the file
@@ -18,7 +18,8 @@ struct PaletteMesh {
   MeshParts parts;
 };
 
-/// Reads the mesh file that the palette has, and makes what it collides as, on a thread of its own.
+/// Reads the mesh file of the palette and computes its collision representation on a thread of its
+/// own.
 class MeshPalette {
  public:
   MeshPalette() = default;
@@ -26,21 +27,21 @@ class MeshPalette {
   MeshPalette(const MeshPalette&) = delete;
   MeshPalette& operator=(const MeshPalette&) = delete;
 
-  /// To be called in every picture: another mesh is begun once the one under way has been given up.
-  /// `view_size`: a mesh that is far larger or smaller is scaled by a power of ten, as files have
-  /// units of their own [m]. `beside` false: read when it is first asked for.
+  /// To be called for every picture. Another mesh is begun once the one under way has been
+  /// cancelled. `view_size` [m]: a mesh far larger or smaller is scaled by a power of ten, since
+  /// files have various units. With `beside` false it is read at once on first request.
   void choose(const NewMesh& mesh, double view_size, bool beside);
   /// Null: not chosen, not ready, or not possible.
   std::shared_ptr<const PaletteMesh> ready();
   bool reading() const { return reading_.valid(); }
-  /// Why there is none; "": there is, or will be.
+  /// Why there is no mesh; "": there is, or will be.
   const std::string& fault() const { return fault_; }
 
  private:
   using Read = Result<std::shared_ptr<const PaletteMesh>>;
 
   std::optional<NewMesh> wanted_;
-  StopFlag stop_;  ///< before the future, whose thread looks at it until it is gone
+  StopFlag stop_;  ///< declared before the future, whose thread uses it until it ends
   std::future<Read> reading_;
   std::shared_ptr<const PaletteMesh> ready_;
   std::string fault_;

@@ -10,7 +10,7 @@ namespace tumble {
 
 namespace {
 
-/// A body's, or that of a row of copies "brick[0]", "brick[1]", ...
+/// Whether a name belongs to a body, or to a row of copies "brick[0]", "brick[1]", ...
 bool is_taken(const World& world, std::span<const std::string> coming, const std::string& name) {
   return std::ranges::find(coming, name) != coming.end() || !world.find_body(name).is_null() ||
          !world.find_body(name + "[0]").is_null();

@@ -9,14 +9,14 @@ namespace {
 
 using Named = std::pair<std::string, PartDescription>;
 
-/// y along the normal.
+/// Orients the placement with y along the normal.
 void stand_on(Placement& placement, const Vec3& at, const Vec3& normal) {
   placement.position = at;
   const Vec3 angles = quat_to_euler_deg(rotation_between(Vec3::UnitY(), normal));
   if (!angles.isZero(1e-9)) placement.euler_deg = angles;
 }
 
-/// A square that lies flat, with its middle above the place.
+/// A horizontal square sheet with its centre above the place.
 SheetDescription sheet_above(const PartPlace& place) {
   constexpr int nodes = 31;
   SheetDescription sheet;
@@ -32,7 +32,7 @@ SheetDescription sheet_above(const PartPlace& place) {
 std::vector<Named> new_emitter(const PartPlace& place, const SceneDescription& parts) {
   std::vector<Named> out;
   EmitterDescription emitter;
-  // One after the other, none into the one before.
+  // Bodies are emitted one after the other, so that none overlaps the one before.
   stand_on(emitter.placement, place.at + 4 * place.size * place.normal, place.normal);
   emitter.at_most = 100;
   if (place.body.empty()) {
@@ -94,7 +94,7 @@ ParticleSystemDescription new_heap(const PartPlace& place) {
   return system;
 }
 
-/// A block of water, three spacings clear of what it stands on.
+/// A block of water, three spacings above the surface below it.
 ParticleSystemDescription new_fluid(const PartPlace& place) {
   ParticleSystemDescription system;
   LatticeFill fill;
@@ -122,7 +122,7 @@ SensorDescription new_region(const PartPlace& place) {
   return {region};
 }
 
-/// One part and its name; emitters may bring a second one.
+/// One part and its name; emitters may add a second one.
 template <auto make>
 std::vector<Named> alone(const char* base, const PartPlace& place, const SceneDescription& parts) {
   const PartDescription part = make(place);

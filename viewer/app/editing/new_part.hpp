@@ -8,15 +8,15 @@
 
 namespace tumble {
 
-/// Where something new is to be.
+/// Where to add something new.
 struct PartPlace {
   Vec3 at = Vec3::Zero(), normal = Vec3::UnitY();
-  double size = 1;   ///< of new things at the distance it is looked at from [m]
-  std::string body;  ///< that an emitter is to make copies of; "": particles
+  double size = 1;   ///< size of new things at this viewing distance [m]
+  std::string body;  ///< template for the copies of an emitter; "": it emits particles
 };
 
-/// Descriptions of what a click adds, with names that nobody in `parts` has: one, or two where an
-/// emitter brings the particle system that it fills. The last one is what was asked for.
+/// Descriptions of what a click adds, with names not used in `parts`: one, or two if an emitter
+/// needs a particle system to fill. The last one is the part requested.
 std::vector<std::pair<std::string, PartDescription>> new_parts(PartKind kind,
                                                                const PartPlace& place,
                                                                const SceneDescription& parts);

@@ -50,7 +50,7 @@ void PartsDesk::update(Session& session, const std::vector<DeedEdits>& deeds) {
         session.post(
             [live = live_, name = spring->name, id = spring->id](World&) { live->know(name, id); });
     }
-    if (!stale_) now_ = std::move(folded);  // else a newer answer comes
+    if (!stale_) now_ = std::move(folded);  // otherwise a newer answer will follow
   }
   if (!stale_) return;
   stale_ = false;

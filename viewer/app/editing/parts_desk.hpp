@@ -9,22 +9,23 @@
 
 namespace tumble {
 
-/// Carries out in a list of parts what an edit changes about it.
+/// Applies an edit to a list of parts.
 void fold_part(SceneDescription& parts, const SceneEdit& edit);
 
 /// The emitters, sensors, forces and particles of the scene as its file would describe them now:
-/// those it was opened with, and what deeds that hold have done since.
+/// those of the file, with the edits in effect.
 class PartsDesk {
  public:
-  /// `live`: what these are in the world; only the simulation thread looks into it.
+  /// `live`: their ids in the world; only the simulation thread reads it.
   void open(std::shared_ptr<const SceneDescription> parts, std::shared_ptr<LiveParts> live);
-  /// Something was done or taken back.
+  /// To be called after a change or undo.
   void note() { stale_ = true; }
-  /// Takes the answer that has come, and asks anew where it would be another.
+  /// Takes an answer that has arrived, and sends a new query if it is outdated.
   void update(Session& session, const std::vector<DeedEdits>& deeds);
-  /// Springs of a deed that have no name yet get one; before any other job looks at the deed.
+  /// Gives names to unnamed springs of a change; must be posted before any other job that reads its
+  /// edits.
   void name_springs(Session& session, DeedEdits edits) const;
-  /// Shows a change before the world has made it, or takes it away.
+  /// Shows a change, or a removal (`gone`), before the world has executed it.
   void expect(const std::string& name, const PartDescription& part, bool gone = false);
 
   const std::shared_ptr<const SceneDescription>& parts() const { return now_; }

@@ -11,8 +11,8 @@
 namespace tumble {
 namespace {
 
-/// Whether the name still leads to the file that was opened: whoever gives a lock back takes its
-/// file away, and somebody may have opened that before.
+/// Whether the name still leads to the opened file: the owner of a lock removes its file on
+/// release, and another process may have opened the file before that.
 bool still_named(const std::filesystem::path& file, int descriptor) {
   struct stat opened {
   }, named{};
@@ -26,7 +26,8 @@ std::optional<ProcessLock> ProcessLock::take(const std::filesystem::path& file) 
   while (true) {
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (descriptor < 0) return std::nullopt;
-    // Where files cannot be locked, as on some networks, each goes on as if alone.
+    // If files cannot be locked, as on some network file systems, each process works as if it were
+    // alone.
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor);
       return std::nullopt;
@@ -50,7 +51,7 @@ ProcessLock& ProcessLock::operator=(ProcessLock&& other) noexcept {
 void ProcessLock::release() {
   if (descriptor_ < 0) return;
   std::error_code none;
-  std::filesystem::remove(file_, none);  // while it is still held
+  std::filesystem::remove(file_, none);  // while the lock is still held
   close(std::exchange(descriptor_, -1));
 }
 

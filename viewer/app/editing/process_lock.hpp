@@ -4,11 +4,11 @@
 
 namespace tumble {
 
-/// A lock on a name that other running processes see: given back with its destruction, and by the
-/// system when the process ends in whatever way (flock(2)). Its file is empty and goes with it.
+/// A lock on a name between processes (flock(2)): released by destruction, and by the system when
+/// the process ends in any way. Its file is empty and is removed on release.
 class ProcessLock {
  public:
-  /// Nothing while somebody else has it, or where there can be no such file.
+  /// Empty if another process has it, or if the file cannot be made.
   static std::optional<ProcessLock> take(const std::filesystem::path& file);
   ProcessLock(ProcessLock&& other) noexcept;
   ProcessLock& operator=(ProcessLock&& other) noexcept;

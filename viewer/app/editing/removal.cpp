@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-/// Sensors and particle systems would begin anew; the world has let go of what is gone itself.
+/// Whether the part can be replaced without losing its state. Sensors and particle systems would
+/// begin anew; the world itself has dropped their references to what was removed.
 bool goes_on_when_set(const PartDescription& part) {
   return std::holds_alternative<EmitterDescription>(part) ||
          std::holds_alternative<ForceDescription>(part);
@@ -60,9 +61,9 @@ void Removal::describe_anew(World& world) const {
   const SceneDescription parts = parts_of(left.scene);
   for (const auto& [list, name] : changed) {
     const auto part = find_part(parts, list, name);
-    if (!part) continue;  // it went later
+    if (!part) continue;  // it was removed later
     if (goes_on_when_set(*part)) (void)live_->set(world, parts, name, *part);
-    // Before and after are the same: the removal itself has changed the file.
+    // Equal before and after: the removal itself has already changed the file.
     edits_->push_back(ChangedPart{name, *part, *part});
   }
 }

@@ -8,27 +8,27 @@
 
 namespace tumble {
 
-/// A deed that takes something away, and with it what cannot be without: joints, springs, sensors
-/// and emitters that name it leave the world and the scene's file in the same deed, others lose the
-/// name, and a person is told. For jobs on the simulation thread.
+/// A removal together with everything that depends on the removed thing: joints, springs, sensors
+/// and emitters that refer to it are removed from the world and the scene's file in the same undo
+/// step, other references are dropped, and the user is informed. For jobs on the simulation thread.
 class Removal {
  public:
-  /// `deeds`: all that the file has to take up, the deed itself (`edits`) the last of them.
+  /// `deeds`: all unsaved edits, those of the removal itself (`edits`) last.
   Removal(const SceneFile& file, std::vector<DeedEdits> deeds, DeedEdits edits,
           const PartsDesk& desk, Refusal told);
-  /// Notes what has been taken away in the world, and takes along what named it.
+  /// Records what was removed from the world, and removes what depended on it.
   void take(World& world, const SceneEdit& removal) const;
-  /// After all has been taken: parts that stay without a name are described anew, and what was
-  /// taken along is told.
+  /// To be called after all removals: remaining parts that lost a reference are described anew, and
+  /// dependent removals are reported.
   void finish(World& world) const;
 
  private:
   void describe_anew(World& world) const;
 
-  /// Common to the copies, which a job is.
+  /// Shared by the copies of this job.
   struct Taking {
-    std::string text, file;              ///< as the scene was opened; "": there is no file
-    std::unique_ptr<FileRemovals> rest;  ///< what is left of it
+    std::string text, file;              ///< of the scene as it was opened; "": there is no file
+    std::unique_ptr<FileRemovals> rest;  ///< what remains of it
     std::vector<TakenAlong> along;
   };
   std::shared_ptr<Taking> taking_ = std::make_shared<Taking>();

@@ -15,13 +15,13 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-/// However the path is written.
+/// Canonical folder of a file, however the path is written.
 fs::path folder_of(const fs::path& file) {
   std::error_code none;
   return fs::absolute(file, none).lexically_normal().parent_path();
 }
 
-/// Whether a scene names files, which are looked for from its folder.
+/// Whether a scene refers to files, which are found relative to its folder.
 bool names_files(const std::string& scene) {
   const JsonTextEdit text(scene);
   using Path = JsonTextEdit::Path;
@@ -82,7 +82,7 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
   preview.lines = changed_lines(file_.on_disk, text_);
   preview.warning = warning_of(file_.path);
   tried_ = std::move(preview);
-  // What was not changed opened a while ago, from there.
+  // An unchanged scene is known to open from this place.
   const fs::path place = place_of(file_.path);
   if (text_ == file_.on_disk && folder_of(place) == folder_of(file_.read_from)) return;
   trial_ = std::make_unique<Trial>();
@@ -93,7 +93,7 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
                                });
 }
 
-/// What writing to a path does that one might not expect; "": nothing.
+/// What may be unexpected about writing to a path; "": nothing.
 std::string SceneSaver::warning_of(const fs::path& path) const {
   if (!file_.pack.empty())
     return "It came in a pack: another name that ends in .json writes the scene with its files "
@@ -115,7 +115,8 @@ void SceneSaver::name(const std::string& file) {
   preview_->warning = file.empty() ? std::string() : warning_of(fs::absolute(file, none));
 }
 
-/// What stands behind a path that is written to: a scene of a pack is where it was unpacked.
+/// The path at which the scene is test-opened: the path itself, or for a scene from a pack the file
+/// that was unpacked.
 fs::path SceneSaver::place_of(const fs::path& path) const {
   return file_.pack.empty() ? path : file_.read_from;
 }
@@ -125,7 +126,7 @@ void SceneSaver::look_at_trial() {
     if (trial_->outcome.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
     if (const Status opens = trial_->outcome.get(); !opens) {
       tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
-      // Files that it names may be found from another folder.
+      // Files that it refers to may be found from another folder.
       tried_->only_there = file_.pack.empty() && names_files(text_);
     }
     trial_.reset();
@@ -134,15 +135,16 @@ void SceneSaver::look_at_trial() {
   named_ = preview_->file;
 }
 
-/// The pack itself may have any name, and be written in any way.
+/// Whether the path leads to the scene's own pack, whatever its ending and however it is written.
 bool SceneSaver::writes_pack(const fs::path& path) const {
   std::error_code none;
   return path.extension() != ".json" || path == file_.pack ||
          fs::equivalent(path, file_.pack, none);
 }
 
-/// A scene out of a pack needs the files that came with it, wherever it goes: as a pack anew, or
-/// loose with all of them beside it. A replay was of the scene as it was.
+/// A scene from a pack needs the files that came with it: it is written as a pack again, or as a
+/// scene file with all these files beside it. The replay of the pack is left out, since it belongs
+/// to the original scene.
 Status SceneSaver::write_packed(const fs::path& path) const {
   auto files = read_pack(file_.pack);
   if (!files) return files.error();
@@ -182,7 +184,7 @@ Status SceneSaver::write(const fs::path& to) {
   if (!preview_) return Error{ErrorCode::invalid_argument, "there is nothing to write", {}, {}};
   std::error_code none;
   const fs::path path = fs::absolute(to, none).lexically_normal();
-  // Files that a scene names are looked for from where it lies.
+  // Files that a scene refers to are found relative to its own folder.
   const bool elsewhere = file_.pack.empty() && folder_of(path) != folder_of(file_.path);
   if (!preview_->fault.empty() && !(preview_->only_there && elsewhere))
     return Error{ErrorCode::invalid_argument, preview_->fault, {}, {}};
@@ -199,7 +201,7 @@ Status SceneSaver::write(const fs::path& to) {
   }
   const Status done =
       file_.pack.empty() ? write_file(path, std::string_view(text)) : write_packed(path);
-  if (!done) return done;  // as if nobody had tried: another name can be
+  if (!done) return done;  // as if nothing had been tried, so that another name can be
   text_ = std::move(text);
   if (!file_.pack.empty()) {
     const bool pack = writes_pack(path);

@@ -14,44 +14,45 @@
 
 namespace tumble {
 
-/// What a deed changes about the file of the scene; filled and read on the simulation thread.
+/// The edits that a change by the user makes to the scene's file; filled and read on the simulation
+/// thread.
 using DeedEdits = std::shared_ptr<std::vector<SceneEdit>>;
 
-/// What deeds change, all together, as soon as the simulation thread has it.
+/// The edits of all changes together, as soon as the simulation thread has them.
 std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds);
 
 /// The file of a scene as it was opened.
 struct SceneFile {
-  std::filesystem::path path;       ///< where saving goes
-  std::filesystem::path read_from;  ///< where it was read
-  std::string text;                 ///< of what is shown; "": nothing that could be saved
-  std::string on_disk;              ///< what it holds; another text where unsaved work was taken up
-  std::filesystem::path pack;       ///< the scene came out of this pack; empty: out of none
-  bool ours = false;     ///< a person's own file; others stay as they are, and get a copy
-  bool unnamed = false;  ///< a new scene: it is called as no other is, saved or not
+  std::filesystem::path path;       ///< where it will be saved
+  std::filesystem::path read_from;  ///< where it was read from
+  std::string text;                 ///< of the scene shown; "": it cannot be saved
+  std::string on_disk;  ///< content of the file; differs from `text` if unsaved work was taken up
+  std::filesystem::path pack;  ///< pack from which the scene came; empty: none
+  bool ours = false;           ///< the user's own file; others are not overwritten, a copy is saved
+  bool unnamed = false;        ///< a new scene, saved or not, with a name that no other scene has
 };
 
-/// Saves a scene with what was changed since it was opened: prepare() collects the changes, a
-/// preview is shown as soon as they are known, write() writes it.
+/// Saves a scene with its changes: prepare() collects them, preview() shows them once they are
+/// known, write() writes them.
 class SceneSaver {
  public:
   void open(SceneFile file);
-  /// `beside`: what would be written is tried out on a thread of its own; else in update().
+  /// `beside`: the result is test-opened on a thread of its own; otherwise in update().
   void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others,
                bool beside);
-  /// Takes the changes that have come.
+  /// Takes the changes when they have arrived.
   void update();
-  /// Null until prepare() has an answer.
+  /// Null until prepare() has finished.
   const SavePreview* preview() const { return preview_ ? &*preview_ : nullptr; }
-  /// Somebody names another file to be written: the preview warns of what that would do.
+  /// Sets another path to write to; the preview then warns about it.
   void name(const std::string& file);
-  /// Writes what the preview shows, if it opens as a scene there; from then on that is the scene's
-  /// file. A relative path is one of the working folder.
+  /// Writes what the preview shows, if it opens as a scene at that place; this becomes the scene's
+  /// file. A relative path is relative to the working folder.
   Status write(const std::filesystem::path& path);
   const SceneFile& file() const { return file_; }
 
  private:
-  /// Whether a text opens as a scene; given up with its destruction.
+  /// Whether a text opens as a scene; cancelled by destruction.
   struct Trial {
     StopFlag stop;
     std::future<Status> outcome;
@@ -65,15 +66,15 @@ class SceneSaver {
   Status write_packed(const std::filesystem::path& path) const;
 
   SceneFile file_;
-  std::vector<SceneEdit> others_;  ///< besides the deeds
-  std::vector<SceneEdit> edits_;   ///< all of them, as the preview has them
+  std::vector<SceneEdit> others_;  ///< edits besides those of the changes
+  std::vector<SceneEdit> edits_;   ///< all edits, as in the preview
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
-  std::string named_;                 ///< the file that the preview warns of
-  std::optional<SavePreview> tried_;  ///< what becomes the preview, if the trial goes well
+  std::string named_;                 ///< path that the preview warns about
+  std::optional<SavePreview> tried_;  ///< becomes the preview if the trial succeeds
   std::unique_ptr<Trial> trial_;      ///< null: none is under way
   bool beside_ = true;
-  std::string text_;  ///< of the preview
+  std::string text_;  ///< text to be written
 };
 
 }  // namespace tumble

@@ -14,17 +14,18 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-/// What a held widget changes comes with every picture: looked at as often as this [s].
+/// While a widget is held, changes come with every picture; they are collected at this interval
+/// [s].
 constexpr double seconds_between_looks = 1;
 
-/// For an answer of the session: in a tick that takes longer it is left.
+/// How long to wait for the session; during a slower tick, the answer is skipped.
 constexpr std::chrono::milliseconds patience(500);
 
-/// So many new scenes of one folder are told apart.
+/// Greatest number of new scenes in one folder.
 constexpr int most_unnamed = 1000;
 
-/// In so many places the work on one scene is kept apart: of windows that show it now, and of runs
-/// that ended and nobody has gone on with.
+/// Greatest number of files for the unsaved work on one scene: of windows that show it now, and of
+/// earlier runs whose work nobody has continued.
 constexpr int most_places = 64;
 
 fs::path lock_of(const fs::path& kept) {
@@ -72,14 +73,14 @@ void UnsavedWork::open(const SceneFile& file, bool goes_on) {
   if (any_ || goes_on) keep();
 }
 
-/// Whether a file is one of those in which work on the scene that is shown is kept.
+/// Whether a file contains unsaved work on the scene shown.
 bool UnsavedWork::is_of_scene(const fs::path& kept) const {
   for (int place = 1; place <= most_places; ++place)
     if (kept == kept_file_of(file_.path, place)) return true;
   return false;
 }
 
-/// One in which nobody else keeps any.
+/// Chooses and locks a file that no other process uses.
 void UnsavedWork::claim_file() {
   std::error_code none;
   for (int place = 1; place <= most_places; ++place) {
@@ -108,7 +109,7 @@ UnsavedWork::Files UnsavedWork::kept_files_of(const fs::path& scene) const {
   return out;
 }
 
-/// Whether another program that runs now keeps its work there.
+/// Whether another running program uses this file.
 bool UnsavedWork::is_anothers(const fs::path& kept) const {
   return !held_.contains(kept) && !ProcessLock::take(lock_of(kept));
 }
@@ -126,7 +127,7 @@ std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
   if (folder_.empty() || !fs::exists(folder_, none)) return out;
   for (int n = 1; n <= most_unnamed; ++n) {
     const fs::path scene = unnamed_scene(n);
-    // What has a file by now is offered with that.
+    // A scene that has been saved meanwhile is offered when it is opened.
     if (scene == file_.path || fs::exists(scene, none)) continue;
     for (const fs::path& file : kept_files_of(scene))
       if (auto kept = read_kept(file)) out.push_back({scene, *std::move(kept)});
@@ -144,7 +145,7 @@ void UnsavedWork::take_over(const Kept& kept) {
 fs::path UnsavedWork::free_name() const {
   std::error_code none;
   const auto taken = [&](const fs::path& scene) {
-    // In a long tick the newest deeds of the scene that is shown are not known yet.
+    // During a slow tick the newest changes of the scene shown are not known yet.
     if (file_.unnamed && scene == file_.path && (any_ || stale_ || collected_.valid())) return true;
     return fs::exists(scene, none) || !kept_files_of(scene).empty();
   };
@@ -177,7 +178,7 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
 
 void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread) {
   if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
-  // What was asked for before the newest deed does not know it.
+  // A query sent before the newest change does not include it.
   if (stale_ || !collected_.valid()) collected_ = collect_edits(session, deeds);
   stale_ = false;
   if (!own_thread) (void)session.advance(0);
@@ -207,7 +208,7 @@ std::vector<std::string> UnsavedWork::texts_after(const std::string& start, Sess
 
 std::optional<std::string> UnsavedWork::text_with(const std::string& text,
                                                   const std::vector<SceneEdit>& edits) const {
-  // It is read again in place of the text that it was made of.
+  // The kept text is opened in place of the file's text, so relative paths must stay valid.
   const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
   auto saved = save_edits(text, in_place ? file_.path.string() : std::string(), edits);
   return saved ? std::optional(std::move(saved->text)) : std::nullopt;
@@ -216,7 +217,7 @@ std::optional<std::string> UnsavedWork::text_with(const std::string& text,
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
   edits_ = std::move(edits);
   const std::optional<std::string> saved = text_with(file_.text, edits_);
-  if (!saved) {  // what could be kept last stays kept
+  if (!saved) {  // what was kept last stays
     any_ = any_ || !edits_.empty();
     return;
   }
@@ -227,14 +228,14 @@ void UnsavedWork::take(std::vector<SceneEdit> edits) {
   keep();
 }
 
-/// What is not saved, in a file; none where all is.
+/// Writes the unsaved work to its file; removes the file if everything is saved.
 void UnsavedWork::keep() {
   if (folder_.empty() || file_.text.empty()) return;
   if (!any_) return throw_away(keep_in_);
   std::error_code none;
   fs::create_directories(folder_, none);
   if (keep_in_.empty()) claim_file();
-  // A full disk must not stop the work; saving will say what is wrong.
+  // A full disk must not stop the work; saving will report it.
   if (!keep_in_.empty()) (void)write_file(keep_in_, std::string_view(text_));
 }
 
@@ -244,12 +245,12 @@ void UnsavedWork::saved(const SceneFile& file) {
   file_.on_disk = file.on_disk;
   keep_in_.clear();
   any_ = false;
-  stale_ = true;  // the newest deed may have gone on
+  stale_ = true;  // the newest change may have continued
 }
 
 void UnsavedWork::throw_away(const fs::path& kept) {
   if (kept.empty()) return;
-  const fs::path file = kept;  // may be that of keep_in_
+  const fs::path file = kept;  // a copy, since `kept` may refer to keep_in_
   if (is_anothers(file)) return;
   std::error_code none;
   fs::remove(file, none);

@@ -12,68 +12,67 @@
 
 namespace tumble {
 
-/// Where unsaved work is kept: tumble/unsaved under $XDG_STATE_HOME, or ~/.local/state (XDG Base
-/// Directory Specification); empty where neither is known.
+/// Folder for unsaved work: tumble/unsaved under $XDG_STATE_HOME, or ~/.local/state (XDG Base
+/// Directory Specification); empty if neither is known.
 std::filesystem::path unsaved_folder();
 
 /// The n-th name of a new scene in the working folder: "untitled.json", "untitled_2.json" ...
 std::filesystem::path unnamed_scene(int n);
 
-/// What was changed about the scene's file and is not in it: known soon after every deed, and kept
-/// in a file of its own until it is saved or thrown away, so that it outlives a crash. Each running
-/// program keeps what it has done to a scene in a file that no other touches: several windows may
-/// show one scene.
+/// Changes to a scene that are not in its file: collected soon after every change, and kept in a
+/// file of their own until they are saved or discarded, so that they survive a crash. Each running
+/// program uses files of its own, so that several windows can show one scene.
 class UnsavedWork {
  public:
-  /// `folder`: where such files are; empty: none are written.
+  /// `folder`: where such files are kept; empty: nowhere.
   explicit UnsavedWork(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Another scene is shown; what was kept of the last one stays. `goes_on`: it is the same one
-  /// with another text, and what is kept of it becomes that.
+  /// To be called when another scene is shown; what was kept of the last one stays. `goes_on`: it
+  /// is the same scene with another text, which replaces what is kept.
   void open(const SceneFile& file, bool goes_on);
-  /// Work that was left of this scene, by an earlier run or by this one, and when; nothing when
-  /// that is what the scene's file holds, too.
+  /// Unsaved work on this scene left by an earlier run or by this one; empty if it is equal to the
+  /// scene's file.
   struct Kept {
     std::string text;
-    std::string when;            ///< for people, local time
+    std::string when;            ///< for display, local time
     std::filesystem::path file;  ///< where it is kept
-    bool own = false;            ///< this run has left it
+    bool own = false;            ///< left by this run
   };
   std::optional<Kept> kept() const;
-  /// Somebody goes on with what was kept: from now on it is this run's.
+  /// Continues kept work: from now on it belongs to this run.
   void take_over(const Kept& kept);
-  /// Work that was kept of other new scenes, which have no file yet.
+  /// Kept work on new scenes that have no file yet.
   struct Unnamed {
-    std::filesystem::path path;  ///< as they would be called
+    std::filesystem::path path;  ///< the path that it would be saved to
     Kept kept;
   };
   std::vector<Unnamed> kept_unnamed() const;
-  /// What a new scene is called: as no file, no work that was kept, and not as the scene that is
-  /// shown where work of that is still to be kept.
+  /// An unused name for a new scene: of no file, of no kept work, and not of the scene shown if
+  /// that has work to be kept.
   std::filesystem::path free_name() const;
-  /// Deeds have come, gone, or gone on.
+  /// To be called when changes were made, undone or continued.
   void note() { stale_ = true; }
-  /// Called once a picture with the deeds that hold: after note() they are put into the file's
-  /// text.
+  /// To be called once per picture, with the changes in effect: after note() they are applied to
+  /// the file's text.
   void update(Session& session, const std::vector<DeedEdits>& deeds, double dt);
-  /// Looks at the newest deeds at once, before another scene is shown. `own_thread`: of the
-  /// session.
+  /// Collects the newest changes at once, before another scene is shown. `own_thread`: whether the
+  /// session has one.
   void finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread);
-  /// A text of the scene after each of these deeds, which come after those that are too old;
-  /// nothing where the session does not say it soon. What cannot be said in the file leaves it as
-  /// it is.
+  /// The text of the scene after each of these changes, which come after those that are `too_old`
+  /// to be undone; empty if the session does not answer soon. A change that the file cannot
+  /// represent leaves the text as it is.
   std::vector<std::string> texts_after(const std::string& start, Session& session,
                                        const std::vector<DeedEdits>& too_old,
                                        const std::vector<DeedEdits>& deeds, bool own_thread) const;
-  /// The scene was saved: this is its file from now on.
+  /// To be called when the scene was saved: this is its file from now on.
   void saved(const SceneFile& file);
-  /// Nobody wants what was kept.
+  /// Discards kept work.
   void throw_away(const std::filesystem::path& kept);
   bool any() const { return any_; }
-  /// The scene with what was changed; the file's own text when nothing was, or when the changes
-  /// cannot be said in it.
+  /// The scene's text with the changes; the file's own text if there are none, or if they cannot be
+  /// represented in it.
   const std::string& text() const { return text_; }
-  /// The changes of the deeds since the scene was opened, as they were last looked at.
+  /// The edits since the scene was opened, as last collected.
   const std::vector<SceneEdit>& edits() const { return edits_; }
 
  private:
@@ -91,14 +90,14 @@ class UnsavedWork {
 
   std::filesystem::path folder_;
   std::filesystem::path keep_in_;  ///< empty: nothing was kept yet
-  std::filesystem::path taken_;    ///< what the next scene that is opened goes on with
-  /// The files in which this run keeps work, of all scenes that it has shown.
+  std::filesystem::path taken_;    ///< file that the next scene to be opened continues
+  /// Locks of all files in which this run keeps work, for all scenes it has shown.
   std::map<std::filesystem::path, ProcessLock> held_;
   SceneFile file_;
   std::string text_;
   std::vector<SceneEdit> edits_;
-  bool stale_ = false;  ///< deeds are others than those looked at
-  double since_ = 0;    ///< the last look [s]
+  bool stale_ = false;  ///< the changes are not those collected last
+  double since_ = 0;    ///< time since the last collection [s]
   bool any_ = false;
   std::future<std::vector<SceneEdit>> collected_;
 };

@@ -16,7 +16,7 @@
 
 namespace tumble {
 
-/// Convex hull of a mesh; the text says why there is none.
+/// Convex hull of a mesh, or the reason why there is none.
 struct HullFacts {
   size_t vertices = 0, facets = 0;
   double volume = 0, area = 0;
@@ -24,7 +24,8 @@ struct HullFacts {
   std::string missing;  ///< empty when there is a hull
 };
 
-/// Everything that `tumble mesh` says of a file, of the mesh as it was cleaned up on loading.
+/// Everything that `tumble mesh` reports about a file; it refers to the mesh after the clean-up of
+/// loading.
 struct MeshFacts {
   std::string file, format;
   double density = 1;  ///< [kg/m3]
@@ -41,18 +42,19 @@ struct MeshFacts {
   PrincipalAxes principal;
   HullFacts hull;
   std::vector<HierarchyFacts> hierarchies;
-  std::optional<WrapFacts> wrap;                     ///< when `mesh` is a wrap of the file's
+  std::optional<WrapFacts> wrap;                     ///< if `mesh` is a wrap of the file's mesh
   std::optional<PiecesFacts> pieces;                 ///< when asked for
   std::optional<FieldFacts> field;                   ///< when asked for
   std::optional<FitFacts> fit;                       ///< when asked for
   std::vector<RepresentationFacts> representations;  ///< when asked for
 };
 
-/// Computes all of it; the mesh has been imported and is valid.
+/// Computes all facts; the mesh must have been imported without errors.
 MeshFacts mesh_facts(std::string file, ImportedMesh imported, double density);
 
 std::string mesh_text(const MeshFacts& facts);
-/// One JSON object; its keys are listed in the command's help and never change their meaning.
+/// The facts as one JSON object; its keys are listed in the command's help and never change their
+/// meaning.
 std::string mesh_json(const MeshFacts& facts, const std::string& picture);
 
 }  // namespace tumble

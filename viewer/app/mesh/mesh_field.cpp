@@ -25,7 +25,7 @@ constexpr size_t measured_points = 4000;
 constexpr int slice_count = 24;    ///< pictures of a field
 constexpr int longest_edge = 768;  ///< of a picture [px]
 
-/// The colour of a distance.
+/// Colour for a distance.
 std::array<uint8_t, 3> colour_of(const DistanceSample& s, double cell, double size, double pixel) {
   const double away = std::min(std::fabs(s.distance) / (0.3 * size), 1.0);
   std::array<double, 3> c =
@@ -44,7 +44,7 @@ std::array<uint8_t, 3> colour_of(const DistanceSample& s, double cell, double si
   return out;
 }
 
-/// The field at one height of z, as a picture of its box.
+/// The field at one height z, as a picture of its box.
 Image slice_picture(const DistanceField& field, double z) {
   const Aabb box = field.layout().box();
   const double pixel = std::max(box.extent().x(), box.extent().y()) / longest_edge;
@@ -67,7 +67,7 @@ std::filesystem::path slice_file(const std::filesystem::path& folder, int n) {
   return folder / fmt::format("slice_{:03}.png", n);
 }
 
-/// A folder for slices, without any unless they may be overwritten.
+/// Makes the folder for slices; it must contain no slices unless overwriting is allowed.
 Status make_slice_folder(const FieldRequest& request) {
   if (Status made = make_folder(request.slices); !made) return made;
   std::error_code error;
@@ -78,7 +78,7 @@ Status make_slice_folder(const FieldRequest& request) {
   return {};
 }
 
-/// A folder that was not there before goes again if nothing was put into it.
+/// Removes a folder that it has made, if it is still empty at the end.
 class NewFolder {
  public:
   explicit NewFolder(std::filesystem::path path) : path_(std::move(path)) {
@@ -87,7 +87,7 @@ class NewFolder {
   }
   ~NewFolder() {
     std::error_code none;
-    if (!was_there_) std::filesystem::remove(path_, none);  // refuses one that is not empty
+    if (!was_there_) std::filesystem::remove(path_, none);  // fails if it is not empty
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
@@ -97,7 +97,7 @@ class NewFolder {
   bool was_there_ = true;
 };
 
-/// How many pictures were written before one failed or a signal came.
+/// Returns how many pictures were written before one failed or a signal came.
 Result<size_t> write_slices(const DistanceField& field, const Aabb& mesh,
                             const std::filesystem::path& folder, const StopSignal& stop) {
   WorkProgress progress("slices");

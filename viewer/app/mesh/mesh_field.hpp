@@ -9,14 +9,14 @@ namespace tumble {
 
 class StopSignal;
 
-/// What `tumble mesh --sdf` asks for.
+/// Options of `tumble mesh --sdf`.
 struct FieldRequest {
-  double cell = 0, error = 0;  ///< of DistanceFieldOptions [m]
+  double cell = 0, error = 0;  ///< as in DistanceFieldOptions [m]
   std::string slices;          ///< folder for pictures; empty: none
-  bool force = false;          ///< overwrite pictures that are there
+  bool force = false;          ///< overwrite existing pictures
 };
 
-/// The distance field of a mesh and what it costs.
+/// The distance field of a mesh and its cost.
 struct FieldFacts {
   double cell = 0, band = 0;  ///< [m]
   std::array<int, 3> cells{};
@@ -27,7 +27,7 @@ struct FieldFacts {
   std::filesystem::path folder;
 };
 
-/// Why there is none.
+/// Why there is no field.
 struct FieldFault {
   Error error;
   bool cannot_write = false;

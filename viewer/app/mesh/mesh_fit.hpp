@@ -9,14 +9,14 @@ namespace tumble {
 
 class StopSignal;
 
-/// The primitives that stand for a mesh, the best first.
+/// The primitives that approximate a mesh, best first.
 struct FitFacts {
   std::vector<FittedPrimitive> fits;
   double seconds = 0;
 };
 
-/// Fits all kinds with progress on stderr, or takes them from the cache. After a signal the error
-/// is `cancelled`.
+/// Fits all kinds of primitives with progress on stderr, or takes them from the cache. After a
+/// signal the error is `cancelled`.
 Result<FitFacts> fit_mesh(const std::shared_ptr<const TriangleMesh>& mesh, const StopSignal& stop);
 
 std::string fit_text(const FitFacts& facts);

@@ -15,7 +15,7 @@ namespace {
 
 const Vec4f open_colour(1.0f, 0.06f, 0.04f, 1), crowded_colour(0.75f, 0.1f, 1.0f, 1);
 
-/// From the mesh's coordinates to those of the picture, in which it is two across.
+/// Maps the mesh's coordinates to those of the picture, in which the mesh is two units across.
 struct MeshPlacing {
   Vec3 centre;
   double scale;
@@ -52,7 +52,7 @@ void add_fault_edges(const MeshFacts& f, const TriangleMesh& mesh, RenderScene& 
   }
 }
 
-/// The volumes, with the mesh in the pieces that they hold. Gives a line about them.
+/// Adds the volumes, with the mesh in pieces by volume. Returns a line of text about them.
 std::string add_volumes(std::shared_ptr<const TriangleMesh> mesh, const MeshPicture& picture,
                         const Paint& paint, Aabb& shown, RenderScene& out) {
   const auto kind = std::find_if(all_hierarchies().begin(), all_hierarchies().end(),
@@ -87,7 +87,7 @@ void add_caption(const std::string& text, float y, float size, RenderScene& out)
   out.texts.push_back(label);
 }
 
-/// As near as all corners of the bounds leave a margin, and the caption its place.
+/// The nearest camera that leaves a margin around the bounds, and room for the caption.
 Camera near_camera(const Aabb& shown, double aspect) {
   Camera camera = frame_bounds(shown, Vec3(0.62, 0.5, 1), 32, aspect);
   const auto fits = [&](const Camera& c) {

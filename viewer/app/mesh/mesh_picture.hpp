@@ -12,12 +12,12 @@ struct MeshPicture {
   int width = 1280, height = 800;
   std::string context = "auto";
   std::string hierarchy;  ///< kind; "": none
-  int level = 3;          ///< below the root; the leaves when the tree is not so deep
+  int level = 3;          ///< below the root; the leaves if the hierarchy is less deep
 };
 
-/// The mesh on a ground with a grid, or with the volumes of a level and the triangles of each in
-/// its colour; open edges in red, edges with more than two triangles in violet, a caption. Shown
-/// in units of its own size, so that nothing is too small or too large.
+/// The mesh on a ground with a grid, or with the bounding volumes of a level and the triangles of
+/// each in its colour; open edges are red, edges with more than two triangles violet; with a
+/// caption. The mesh is scaled to a standard size, so that any size can be drawn.
 RenderScene mesh_scene(const MeshFacts& facts, const MeshPicture& picture);
 
 enum class PictureFailure : uint8_t { no_renderer, cannot_write };
@@ -25,7 +25,7 @@ struct PictureError {
   PictureFailure kind;
   Error error;
 };
-/// Draws it into the file; nothing when that succeeded.
+/// Draws it into the file; empty on success.
 std::optional<PictureError> draw_mesh_picture(const MeshFacts& facts, const MeshPicture& picture,
                                               const LogSink& log);
 

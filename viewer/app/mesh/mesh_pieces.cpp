@@ -16,7 +16,7 @@ Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& me
                                    const PiecesRequest& request, const StopSignal& stop) {
   const Stoppable scope(&stop.flag());
   WorkProgress progress("convex pieces");
-  // A part still to be looked at becomes a piece, or several: what is left is at least this.
+  // Each part still waiting becomes at least one piece.
   const DecompositionProgress show = [&](size_t done, size_t waiting) {
     progress.show(double(done) / double(std::max<size_t>(1, done + waiting)),
                   fmt::format("{} done, {} parts to look at", done, waiting));

@@ -10,16 +10,16 @@ namespace tumble {
 
 class StopSignal;
 
-/// What `tumble mesh --decompose` asks for.
+/// Options of `tumble mesh --decompose`.
 struct PiecesRequest {
   bool exact = false;
-  double tolerance = 0;        ///< of exact pieces; 0: that of decompose_exactly [m]
-  double concavity = 0;        ///< of approximate ones; 0: that of decompose_approximately [m]
-  std::optional<size_t> most;  ///< pieces; unless given what the decomposition allows
+  double tolerance = 0;  ///< for exact pieces; 0: the default of decompose_exactly [m]
+  double concavity = 0;  ///< for approximate ones; 0: the default of decompose_approximately [m]
+  std::optional<size_t> most;  ///< greatest number of pieces; default: that of the decomposition
   std::string file;            ///< OBJ or glTF (pieces_file.hpp); empty: none is written
 };
 
-/// The pieces of a mesh and what they cost.
+/// The pieces of a mesh and their cost.
 struct PiecesFacts {
   ConvexDecomposition decomposition;
   double seconds = 0;
@@ -27,7 +27,7 @@ struct PiecesFacts {
 };
 
 /// Decomposes with progress on stderr, or takes the pieces from the cache. Errors: those of the
-/// decomposition; cancelled after a signal.
+/// decomposition; `cancelled` after a signal.
 Result<PiecesFacts> decompose_mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                    const PiecesRequest& request, const StopSignal& stop);
 

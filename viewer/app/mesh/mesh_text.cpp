@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// Numbers that are only rounding noise beside `scale` are written as 0.
+/// Formats a number; one that is only rounding noise compared with `scale` is written as 0.
 std::string number_text(double x, double scale) {
   return fmt::format("{:.6g}", std::abs(x) < 1e-14 * scale ? 0.0 : x);
 }

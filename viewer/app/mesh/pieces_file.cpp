@@ -38,7 +38,7 @@ Status write_obj(const std::filesystem::path& file, const ConvexDecomposition& p
 }
 
 Status write_mesh_obj(const std::filesystem::path& file, const TriangleMesh& mesh) {
-  constexpr size_t flushed = size_t{1} << 20;  // characters that are worth a write
+  constexpr size_t flushed = size_t{1} << 20;  // characters per write
   FileWriter out(file);
   std::string text = "# a wrapped mesh by Tumble, metres\n";
   const auto flush = [&](size_t least) {
@@ -60,7 +60,7 @@ Status write_mesh_obj(const std::filesystem::path& file, const TriangleMesh& mes
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 
-/// The numbers and the JSON of a glTF 2.0 asset (Khronos, "glTF 2.0 Specification", 2021).
+/// The binary data and the JSON of a glTF 2.0 asset (Khronos, "glTF 2.0 Specification", 2021).
 class GltfAsset {
  public:
   void add(const std::string& name, const TriangleMesh& mesh) {
@@ -74,11 +74,12 @@ class GltfAsset {
     json_["scenes"][0]["nodes"].push_back(n);
   }
 
-  /// With the numbers in the text.
+  /// As .gltf, with the binary data embedded in the text.
   std::string text() const {
     return json_text("data:application/octet-stream;base64," + base64(numbers_));
   }
-  /// A header of 12 bytes, then JSON and numbers as chunks whose lengths are multiples of four.
+  /// As .glb: a header of 12 bytes, then JSON and binary data as chunks whose lengths are multiples
+  /// of four.
   std::string binary() const {
     std::string json = json_text({});
     json.resize((json.size() + 3) / 4 * 4, ' ');

@@ -7,13 +7,12 @@
 
 namespace tumble {
 
-/// How the names of files end that write_pieces() can write.
+/// Endings of file names that write_pieces() supports.
 std::vector<std::string> piece_file_endings();
 
-/// Every piece as an object of its own, whole or not at all: of an OBJ file (.obj) a group whose
-/// faces are polygons, of a glTF file (.glb, or .gltf with its numbers inside) a node whose mesh is
-/// triangles. glTF holds positions as floats, so that they are right to a 16-millionth of
-/// themselves.
+/// Writes every piece as an object of its own, whole or not at all: in an OBJ file (.obj) a group
+/// whose faces are polygons, in a glTF file (.glb, or .gltf with embedded data) a node whose mesh
+/// is triangles. glTF stores positions in single precision, i.e. with a relative error up to 2^-24.
 Status write_pieces(const std::filesystem::path& file, const ConvexDecomposition& pieces);
 
 /// The same of a mesh, whose faces are triangles.

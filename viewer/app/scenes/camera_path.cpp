@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// What of a camera moves: eye, target, field of view.
+/// The values of a camera that change along a path: eye, target, field of view.
 struct CameraNumbers {
   Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
   double fov_deg = 0;
@@ -22,7 +22,7 @@ CameraNumbers numbers_of(const Camera& camera) {
   return {camera.eye, camera.target, camera.fov_deg};
 }
 
-/// By how much they change in a second on the way from one key to another.
+/// Their mean rate of change from one key to another.
 CameraNumbers slope(const CameraKey& from, const CameraKey& to) {
   return (1 / (to.time - from.time)) * (numbers_of(to.camera) + (-1) * numbers_of(from.camera));
 }

@@ -9,7 +9,7 @@ namespace {
 
 using Checks = std::vector<SceneLesson::Check>;
 
-/// The questions that are asked under these choices.
+/// Answers the questions asked under these choices of settings.
 Status run_part(SceneRequest request, const std::vector<std::string>& choose, Checks& out) {
   request.overrides.insert(request.overrides.end(), choose.begin(), choose.end());
   const auto scene = load_scene_and_world(request);

@@ -6,9 +6,10 @@
 
 namespace tumble {
 
-/// Runs the scene of a lesson, once for each of its choices, to the last moment at which the world
-/// decides a question asked under them, and gives what it says to each, in the order of the pages.
-/// Errors: those of loading, a step that fails. Empty where the scene teaches nothing.
+/// Runs the scene of a lesson, once for each of its choices of settings, up to the last time at
+/// which the world decides a question asked under that choice, and returns the measured answers in
+/// the order of the pages. Errors: those of loading, a step that fails. Empty if the scene has no
+/// lesson.
 Result<std::vector<SceneLesson::Check>> check_lesson(const SceneRequest& request);
 
 }  // namespace tumble

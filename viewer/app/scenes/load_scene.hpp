@@ -11,18 +11,18 @@
 
 namespace tumble {
 
-/// Which replay is played with a scene (scene_replay).
+/// Which replay to play with a scene (scene_replay).
 struct ReplayWish {
-  std::string file;   ///< this one; empty: that of the scene's pack, if any
-  bool none = false;  ///< not that one either
+  std::string file;   ///< this file; empty: the replay of the scene's pack, if any
+  bool none = false;  ///< play none, not even that of the pack
 };
 
 /// What to load and what to change about it.
 struct SceneRequest {
   std::string scene;                   ///< file, or name of a scene that comes with Tumble
   std::vector<std::string> overrides;  ///< "path=value"
-  std::optional<std::string> text;     ///< in place of what the scene's file holds
-  std::string stepper;                 ///< instead of the scene's; empty: the scene's
+  std::optional<std::string> text;     ///< instead of the content of the scene's file
+  std::string stepper;                 ///< replaces the scene's stepper; empty: the scene's
   int threads = 0;                     ///< 0: one per core
   LogSink log;
   ReplayWish replay;
@@ -35,22 +35,22 @@ struct LoadedScene {
   BuiltScene built;
 };
 
-/// The description alone, with overrides applied. Error codes: `invalid_argument` when only the
-/// overrides are wrong, else those of the scene or its files. All faults are in the message, one a
-/// line, and in `faults` when given.
+/// Reads the description only, with overrides applied. Error codes: `invalid_argument` if only the
+/// overrides are wrong, otherwise those of the scene or its files. All faults are in the message,
+/// one per line, and in `faults` if given.
 Result<SceneDescription> read_scene_request(const SceneRequest& request,
                                             std::vector<Fault>* faults = nullptr);
-/// The description and a world made from it. A mesh or robot file in place of a scene gives what
-/// read_scene_file() makes of it. Warnings of the scene go to the request's log. Error `cancelled`
-/// where the work of the thread was stopped (engine/core/stop.hpp).
+/// Reads the description and makes a world from it. For a mesh or robot file, the scene is the one
+/// that read_scene_file() makes from it. Warnings of the scene go to the request's log. Error
+/// `cancelled` if the thread's work was stopped (engine/core/stop.hpp).
 Result<LoadedScene> load_scene_and_world(const SceneRequest& request,
                                          std::vector<Fault>* faults = nullptr);
 
-/// Whether a text would open as this file: read and built as it would be. All faults are in the
-/// error.
+/// Whether a text would open if it were the content of this file: it is read and built. All faults
+/// are in the error.
 Status check_scene_text(const std::string& text, const std::filesystem::path& file);
 
-/// 2 when the command line is at fault (--set), else 3.
+/// 2 if the command line is wrong (--set), otherwise 3.
 ExitCode exit_code_of_scene(const Error& error);
 
 }  // namespace tumble

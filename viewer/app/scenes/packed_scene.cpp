@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-/// Whether a replay is one of this world, which is at its first tick.
+/// Plays a replay in this world, which is at its first tick; an error if it does not fit or ends
+/// differently.
 Status holds_in(World& world, const NamedReplay& named) {
   const auto replay = Replay::read(std::as_bytes(std::span(named.bytes)));
   if (!replay) return replay.error();

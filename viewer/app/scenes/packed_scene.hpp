@@ -7,17 +7,17 @@
 
 namespace tumble {
 
-/// A replay, and what it is called in messages.
+/// A replay, and its name in messages.
 struct NamedReplay {
   std::string bytes;
   std::string place;
 };
 
-/// The files of a scene, ready to be packed, with a replay of it; null: with none. What `tumble
-/// pack` writes, and the window. The request has no overrides: a pack has no room for them. What
-/// cannot be opened is not worth being sent, and a replay that begins otherwise than the scene, or
-/// ends in another state than it was recorded with, would only mislead: it is played once, and
-/// refused (`internal`: for its end). Gives up where the work of the thread is stopped.
+/// The files of a scene for a pack, with a replay of it (null: none), as `tumble pack` and the
+/// window write them. The request must have no overrides, since a pack cannot hold them. The scene
+/// must open, and the replay is played once: one that begins differently from the scene is
+/// rejected, and so is one that ends in another state than recorded (`internal`). Cancelled if the
+/// thread's work is stopped.
 Result<std::vector<PackFile>> packed_scene(const SceneRequest& request, const NamedReplay* replay);
 
 }  // namespace tumble

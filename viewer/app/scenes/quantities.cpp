@@ -47,13 +47,13 @@ std::optional<double> body_quantity(const BuiltScene& scene, const Frame& frame,
   return {};
 }
 
-/// What the force of a coordinate's motor is called.
+/// Name of the force or torque of a coordinate's motor.
 std::string_view motor_of(const JointCoordinate& c) {
   return c.angle ? "motor_torque" : "motor_force";
 }
 
-/// "angle", "angle_deg", "angle_rate", "angle_motor" or "angle_motor_torque", and the last three
-/// without a name where there is only one coordinate.
+/// Evaluates "angle", "angle_deg", "angle_rate", "angle_motor" or "angle_motor_torque"; the last
+/// three also as "rate", "motor" and "motor_torque" if there is only one coordinate.
 std::optional<double> coordinate_quantity(const JointFrame& joint, std::string_view what) {
   const std::vector<JointCoordinate>& all = entry_of(joint.kind).coordinates;
   for (size_t k = 0; k < all.size(); ++k) {
@@ -79,7 +79,7 @@ std::optional<double> joint_quantity(const BuiltScene& scene, const Frame& frame
     for (const JointFrame& j : *frame.joints)
       if (j.id == found->second) joint = &j;
   if (what == "broken") return joint ? 0 : 1;
-  // What is broken bears nothing, and is nowhere.
+  // A broken joint has no reaction and no coordinates.
   if (!joint) return what.starts_with("reaction") ? std::optional(0.0) : std::nullopt;
   const auto [vector, axis] = split(what);
   const Quat to_joint = joint->frame_a.q.conjugate();
@@ -125,7 +125,7 @@ std::optional<double> sensor_quantity(const BuiltScene& scene, const Frame& fram
   return std::ranges::find(sensor->inside, id->second) != sensor->inside.end() ? 1 : 0;
 }
 
-/// "", "work", "momentum.y", ... of a line of the books.
+/// Evaluates "", "work", "momentum.y", ... of a line of the ledger.
 std::optional<double> entry_quantity(const LedgerEntry& e, std::string_view what) {
   if (what.empty()) return e.balance;
   if (what == "work") return e.work;
@@ -144,7 +144,7 @@ std::optional<double> ledger_quantity(const BuiltScene& scene, const Ledger& led
     if (found == scene.forces.end()) return {};
     for (const ForceAccount& f : ledger.forces())
       if (f.id == found->second) return entry_quantity(f.account.total(), what);
-    return entry_quantity({}, what);  // before the first tick
+    return entry_quantity({}, what);  // zero before the first tick
   }
   for (size_t i = 0; i < ledger_lines; ++i)
     if (ledger_line_name(LedgerLine(i)) == name)
@@ -273,7 +273,7 @@ std::string quantity_help() {
 
 namespace {
 
-/// Adds what is there; a name goes on meaning what it meant as long as that is there.
+/// Adds things that exist now; a name keeps its meaning as long as the thing it refers to exists.
 template <class Id>
 void learn(std::map<std::string, Id, std::less<>>& names,
            const std::vector<std::pair<std::string_view, Id>>& there) {

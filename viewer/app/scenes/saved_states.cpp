@@ -18,12 +18,12 @@ Error bad_use(std::string message, std::string cure) {
   return {ErrorCode::invalid_argument, std::move(message), {}, std::move(cure)};
 }
 
-/// Keys of a body that say how it looks.
+/// Keys of a body that only affect its look.
 constexpr std::array<std::string_view, 9> body_looks = {"colour",  "roughness", "metallic",
                                                         "pattern", "opacity",   "visible",
                                                         "label",   "volumes",   "volumes_level"};
 
-/// What follows the n-th dot of a path; empty where there is none.
+/// The part of a path after the n-th dot; empty if there is none.
 std::string_view after_dots(std::string_view path, int n) {
   for (; n > 0; --n) {
     const size_t dot = path.find('.');
@@ -33,7 +33,7 @@ std::string_view after_dots(std::string_view path, int n) {
   return path;
 }
 
-/// Whether an override "path=value" changes looks alone.
+/// Whether an override "path=value" only changes looks.
 bool changes_looks(std::string_view change) {
   const std::string_view path = change.substr(0, change.find('='));
   const std::string_view key = after_dots(path, 2);
@@ -43,7 +43,7 @@ bool changes_looks(std::string_view change) {
   return path.starts_with("bodies.") && std::ranges::find(body_looks, key) != body_looks.end();
 }
 
-/// Colours by a quantity of which nobody noted the least and the greatest.
+/// Rejects colouring by a quantity whose range was not recorded.
 Status check_ranges(const Frame& then, const Frame& now) {
   for (size_t i = 0; i < now.particles.size() && i < then.particles.size(); ++i) {
     const ParticleLook &old = then.particles[i]->look, &look = now.particles[i]->look;
@@ -138,7 +138,7 @@ Result<std::shared_ptr<const Frame>> SavedStates::begin(World& world) const {
 Result<std::shared_ptr<const Frame>> SavedStates::advance(World& world, uint64_t tick,
                                                           bool each) const {
   auto at = std::ranges::upper_bound(list_.states, world.tick(), {}, &SavedState::tick);
-  if (!each)  // the tick before is the other end of what is interpolated
+  if (!each)  // the tick before is the other end of the interpolation
     while (at != list_.states.end() && at->tick + 1 < tick) ++at;
   if (at == list_.states.end() || at->tick > tick)
     return Error{ErrorCode::not_found,

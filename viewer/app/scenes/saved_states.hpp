@@ -8,27 +8,28 @@
 
 namespace tumble {
 
-/// What states.json says of the world that a run begins with: equal where scene, settings and
-/// version of Tumble are.
+/// Key of the world that a run begins with, as in states.json: equal if scene, settings and version
+/// of Tumble are.
 std::string start_of_run(const World& world, const std::string& version);
 
-/// A run that `tumble simulate --states` saved, to be drawn with the looks that the scene has now.
+/// A run saved by `tumble simulate --states`, to be drawn with the present looks of the scene.
 class SavedStates {
  public:
-  /// Reads the list of a folder.
+  /// Reads the list of states in a folder.
   static Result<SavedStates> open(const std::filesystem::path& folder);
-  /// The scene as it was simulated, with changes to how it looks. Errors: `invalid_argument` for a
-  /// change to something else, and for another scene than that of the folder.
+  /// Loads the scene as it was simulated, with overrides of its looks. Errors: `invalid_argument`
+  /// for an override of anything else, or if the folder belongs to another scene.
   Result<LoadedScene> load_scene(SceneRequest request, const std::string& version);
 
-  /// How many frames of a rate there are up to the last state.
+  /// The number of frames at a rate up to the last state.
   uint64_t frames_at(Fraction fps) const;
-  /// Error: one of so many frames cannot be drawn; `each`: not without every tick before it.
+  /// Error: one of these frames cannot be drawn; with `each`, because a tick before it was not
+  /// saved.
   Status check_frames(uint64_t frames, Fraction fps, bool each) const;
-  /// Brings the world of the scene nearer to `tick`: to the next saved one, or, unless `each` is
-  /// wanted, to that tick or the one before it.
+  /// Advances the world towards `tick`: to the next saved state or, unless `each`, directly to that
+  /// tick or the one before it.
   Result<std::shared_ptr<const Frame>> advance(World& world, uint64_t tick, bool each) const;
-  /// Brings it to the first.
+  /// Sets the world to the first state.
   Result<std::shared_ptr<const Frame>> begin(World& world) const;
 
   const StateList& list() const { return list_; }
@@ -40,8 +41,8 @@ class SavedStates {
 
   std::filesystem::path folder_;
   StateList list_;
-  std::shared_ptr<const Frame> looks_;  ///< the scene at its start, where looks were changed
-  /// Its emitters of bodies then, whose templates say how the copies look.
+  std::shared_ptr<const Frame> looks_;  ///< the scene's first frame, if looks were overridden
+  /// Its emitters of bodies, whose templates give the looks of the copies.
   std::vector<std::pair<EmitterId, std::shared_ptr<const EmitterDef>>> emitters_;
 };
 

@@ -17,7 +17,7 @@ std::vector<Fault> assertion_faults(const BuiltScene& scene) {
   const auto frame = scene.world->frame();
   for (size_t i = 0; i < assertions.size(); ++i) {
     const auto parsed = Expression::parse(assertions[i].holds);
-    if (!parsed) continue;  // validate() has it
+    if (!parsed) continue;  // reported by validate()
     for (const std::string& name : parsed->names()) {
       if (named_value(scene, *frame, name)) continue;
       const std::string near = nearest_word(name, quantity_names(scene));
@@ -33,7 +33,7 @@ std::shared_ptr<SceneAssertions> SceneAssertions::make(const BuiltScene& scene) 
   std::shared_ptr<SceneAssertions> out(new SceneAssertions);
   for (const AssertionDescription& d : scene.description->assertions) {
     auto condition = Expression::parse(d.holds);
-    if (!condition) continue;  // no scene has one that validate() refuses
+    if (!condition) continue;  // cannot happen in a scene that validate() accepts
     One& one = out->all_.emplace_back();
     one.view.title = d.title;
     one.view.text = d.holds;

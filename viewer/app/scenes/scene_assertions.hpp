@@ -10,31 +10,31 @@
 
 namespace tumble {
 
-/// Names in the assertions of a scene that it does not have, with their lines.
+/// Faults for unknown names in the assertions of a scene, with their lines.
 std::vector<Fault> assertion_faults(const BuiltScene& scene);
 
-/// The assertions of a scene, judged tick by tick, in the window and without it in the same way: an
-/// assertion with a moment by the tick at which it comes, and no other.
+/// Evaluates the assertions of a scene tick by tick, with a window or without in the same way. An
+/// assertion with a time is evaluated at the first tick that reaches it, and at no other.
 class SceneAssertions final : public TickWatcher {
  public:
-  /// Keeps the names of the scene and not its world; null where it has no assertions. Those that
-  /// assertion_faults() finds fault with fail.
+  /// Keeps the names of the scene but not its world; null if it has no assertions. Assertions with
+  /// faults (assertion_faults()) fail.
   static std::shared_ptr<SceneAssertions> make(const BuiltScene& scene);
 
   void see(const Frame& frame) override;
   void go_to(const Frame& frame) override;
-  /// The run ends with this frame.
+  /// To be called with the last frame of the run.
   void finish(const Frame& frame);
   std::vector<AssertionView> views() const;
-  /// How long a run decides them all [s].
+  /// The length of a run that decides all assertions [s].
   struct Span {
     double seconds = 0;
-    bool assumed = false;  ///< none of them says when to end
+    bool assumed = false;  ///< no assertion names an end
   };
-  /// To the last moment that one of them names, if that comes after all `always` have begun; else
-  /// for `unsaid` after that.
+  /// The span up to the last time that an assertion names, if all `always` assertions have begun by
+  /// then; otherwise `unsaid` [s] longer than the latest of their starts.
   Span span(double unsaid) const;
-  /// The last moment that any of them names [s].
+  /// The last time that any of them names [s].
   double last_moment() const;
 
  private:
@@ -50,10 +50,11 @@ class SceneAssertions final : public TickWatcher {
   std::vector<One> all_;
 };
 
-/// What came of them: a line for each that fails, with its values, and for each that still waits.
+/// The outcome: a line for each assertion that fails, with its values, and for each that is
+/// undecided.
 std::string verdict_text(const std::vector<AssertionView>& assertions);
 bool any_fails(const std::vector<AssertionView>& assertions);
-/// Whether one is not decided: the run ended before its moment.
+/// Whether one is undecided because the run ended before its time.
 bool any_waits(const std::vector<AssertionView>& assertions);
 
 }  // namespace tumble

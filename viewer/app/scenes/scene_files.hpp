@@ -14,8 +14,8 @@ constexpr std::string_view default_scene = "demolition";
 /// Names of the scenes that come with Tumble, sorted; empty when they are not installed.
 std::vector<std::string> scene_names();
 
-/// A scene by the name of a file, or by the name of one that comes with Tumble. The error of an
-/// unknown one names what there is.
+/// The path of a scene given by a file name or by the name of one that comes with Tumble. The error
+/// for an unknown name lists the known ones.
 Result<std::filesystem::path> find_scene(std::string_view name_or_file);
 
 }  // namespace tumble

@@ -20,7 +20,7 @@ std::string path_of(size_t step, const std::string& key) {
 Quantity curve_of(const std::shared_ptr<const BuiltScene>& names, const std::string& text) {
   Quantity out{text, unit_of_quantity(text), {}};
   auto parsed = Expression::parse(text);
-  if (!parsed) {  // no scene has one that validate() refuses
+  if (!parsed) {  // cannot happen in a scene that validate() accepts
     out.read = [](const Frame&) { return std::nullopt; };
     return out;
   }
@@ -58,7 +58,7 @@ std::vector<Fault> lesson_faults(
   const auto frame = scene.world->frame();
   const auto look = [&](const std::string& text, const std::string& path) {
     const auto parsed = Expression::parse(text);
-    if (!parsed) return;  // validate() has it
+    if (!parsed) return;  // reported by validate()
     for (const std::string& name : parsed->names()) {
       if (named_value(scene, *frame, name)) continue;
       const std::string near = nearest_word(name, quantity_names(scene));
@@ -154,7 +154,7 @@ void SceneLesson::turn_to(size_t step) {
   view_.steps[view_.step].seen = true;
 }
 
-/// With what is known: the lesson's own number, else the world's.
+/// Judges with the lesson's own number if it has one, otherwise with the measured one.
 void SceneLesson::judge(size_t step) {
   LessonQuestionView& q = *view_.steps[step].question;
   const Truth& truth = truths_[step];
@@ -166,7 +166,7 @@ void SceneLesson::judge(size_t step) {
   } else if (!right) {
     q.verdict = AnswerVerdict::waiting;
   } else {
-    // What is written with all its figures in decimals may be half a unit of rounding off.
+    // Allows for the rounding of an answer given with all its digits.
     const double slack = 1e-9 * std::max(1.0, std::fabs(*right));
     const bool good = std::fabs(*said - *right) <= truth.tolerance + slack;
     q.verdict = good ? AnswerVerdict::right : AnswerVerdict::wrong;

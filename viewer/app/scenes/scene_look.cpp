@@ -16,13 +16,13 @@ namespace tumble {
 
 namespace {
 
-/// How large the surroundings may be, and how deep the fall, to be seen with what moves: times its
-/// size.
+/// Greatest size of surroundings, and greatest depth of fall, that are included in the view, over
+/// the size of what moves [-].
 constexpr double largest_surroundings = 8;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The highest surface of scenery, or of the ground, right below what moves; nothing when it is too
-/// far below, or there is none.
+/// Height of the highest surface of scenery, or of the ground, directly below what moves; empty if
+/// it is too far below, or there is none.
 std::optional<double> landing_height(const Aabb& moving, const std::vector<Aabb>& scenery,
                                      std::optional<double> ground) {
   std::optional<double> height = ground;
@@ -36,7 +36,7 @@ std::optional<double> landing_height(const Aabb& moving, const std::vector<Aabb>
   return height && *height >= deepest ? height : std::nullopt;
 }
 
-/// Unless all have left.
+/// Removes boxes outside of `home`, unless all are.
 void leave_out_what_has_left(const Aabb& home, std::vector<Aabb>& boxes) {
   const Aabb region = home.inflated(flown_away * 0.5 * home.extent().norm());
   const auto has_left = [&](const Aabb& box) { return !region.contains(box.centre()); };
@@ -53,7 +53,7 @@ Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
     frame.info(slot).for_seen([&](const BodyShape& part, const Vec3f&) {
       const Aabb box = part.shape->bounds(frame.body(slot).pose * part.pose);
       if (!box.min.allFinite() || !box.max.allFinite()) {
-        // Only of level ground is the height bounded.
+        // Only level ground has a bounded height.
         if (std::isfinite(box.max.y())) ground = std::max(box.max.y(), ground.value_or(-infinite));
         return;
       }
@@ -81,7 +81,7 @@ Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home) {
 
 namespace {
 
-/// The keys of a flight with the bodies that they follow, at a moment between two frames.
+/// The keys of a path at a moment between two frames, moved with the bodies that they follow.
 std::vector<CameraKey> keys_at(const std::vector<CameraKey>& path, const Frame& from,
                                const Frame& to, double s) {
   return carried_along(path, [&](const std::string& name) -> std::optional<Vec3> {
@@ -161,7 +161,7 @@ std::vector<BodyNote> body_notes(const BuiltScene& scene) {
 Overlays overlays_of(const SceneDescription& description) {
   std::string names;
   for (const std::string& name : description.look.overlays) names += name + ",";
-  // Names of a scene that was read are known.
+  // The names were checked when the scene was read.
   const auto parsed = parse_overlays(names);
   return parsed ? *parsed : Overlays{};
 }
@@ -182,7 +182,7 @@ void apply_look(const SceneDescription& description, RenderScene& out) {
   out.ground.grid_colour = look.ground.line_colour.linear();
   out.ground.grid = look.ground.grid > 0;
   if (out.ground.grid) out.ground.grid_spacing = look.ground.grid;
-  // The description's default density is the renderer's haze of 1.
+  // The default density of the description corresponds to the renderer's haze of 1.
   out.haze = float(look.fog.density / FogDescription{}.density);
   out.haze_colour.reset();
   if (look.fog.colour) out.haze_colour = look.fog.colour->linear();

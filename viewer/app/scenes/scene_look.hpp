@@ -12,35 +12,35 @@ namespace tumble {
 struct BuiltScene;
 struct SceneDescription;
 
-/// A camera of a scene, perhaps moving along with a body.
+/// A camera of a scene, which may follow a body or a path.
 struct ViewPoint {
   std::string name;
   Camera camera;                 ///< as at tick 0
-  BodyId follow;                 ///< null: stands still
-  Vec3 follow_x = Vec3::Zero();  ///< where that body was at tick 0 [m]
-  std::vector<CameraKey> path;   ///< its flight; empty: none
+  BodyId follow;                 ///< body to follow; null: none
+  Vec3 follow_x = Vec3::Zero();  ///< position of that body at tick 0 [m]
+  std::vector<CameraKey> path;   ///< keys of its path; empty: none
 
   /// The camera for a moment between two frames.
   Camera at(const Frame& from, const Frame& to, double s) const;
 };
 
-/// What a person wants to see first: everything that moves, where it can fall, and what is about
-/// it, but no wall, floor or landscape that would make it small, and nothing that has flown away
-/// (bounds_of_most), or has left `home`, where the scene began; everything finite when nothing
-/// moves.
+/// Bounds of what a viewer is first interested in: everything that moves, where it can fall, and
+/// what is around it, but no wall, floor or landscape so large that the rest would look small, and
+/// nothing that has flown away (bounds_of_most) or has left `home`, the bounds at the start. If
+/// nothing moves, everything that is finite.
 Aabb interesting_bounds(const Frame& frame, const std::optional<Aabb>& home = {});
 
-/// The camera of this name; the scene's first one for an empty name; one that sees everything when
-/// the scene has none. The error of an unknown name lists those there are.
+/// The camera of this name; for an empty name the scene's first camera, or one that sees everything
+/// if it has none. The error for an unknown name lists the known ones.
 Result<ViewPoint> find_view_point(const BuiltScene& scene, std::string_view name, double aspect);
 
-/// Labels and hierarchies that bodies of the scene want shown.
+/// The labels and hierarchies that the scene wants shown on its bodies.
 std::vector<BodyNote> body_notes(const BuiltScene& scene);
 
-/// Overlays that the scene wants to be on.
+/// The overlays that the scene wants.
 Overlays overlays_of(const SceneDescription& description);
 
-/// Sun, sky, ground and exposure of the scene.
+/// Applies the sun, sky, ground and exposure of the scene.
 void apply_look(const SceneDescription& description, RenderScene& out);
 
 }  // namespace tumble

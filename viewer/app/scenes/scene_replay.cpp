@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// The replay that the pack of a scene holds; empty where there is none.
+/// Path of the replay in the scene's pack; empty if there is none.
 std::filesystem::path replay_in_pack(const SceneRequest& request, const LoadedScene& scene) {
   const std::filesystem::path file = scene.file.parent_path() / pack_replay_name;
   std::error_code none;
@@ -26,7 +26,7 @@ std::filesystem::path replay_in_pack(const SceneRequest& request, const LoadedSc
 }  // namespace
 
 Status ReplayPlayer::follow(World& world, bool anew) {
-  if (world.tick() > replay_.last_tick()) return {};  // it has ended one way or the other
+  if (world.tick() > replay_.last_tick()) return {};  // the replay has ended
   const auto done = [&] { return world.replay_log().entries().size(); };
   if (!anew && seen_tick_ == world.tick() && seen_done_ == done()) return {};
   const size_t before = done();

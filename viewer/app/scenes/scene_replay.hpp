@@ -11,7 +11,7 @@ namespace tumble {
 
 class Options;
 
-/// Plays a replay into the world of its scene.
+/// Plays the commands of a replay into the world of its scene.
 class ReplayPlayer {
  public:
   using Course = Replay::Course;
@@ -19,21 +19,21 @@ class ReplayPlayer {
   ReplayPlayer(Replay replay, std::string source)
       : replay_(std::move(replay)), source_(std::move(source)) {}
 
-  /// At the first tick, after each further one and after each change, by whoever steps the world:
-  /// does what was done at it. `anew`: the world has gone to another moment. Error: the world
-  /// refused that.
+  /// To be called at the first tick, after each further one and after each other change, on the
+  /// thread that steps the world: executes the replay's commands for that tick. `anew`: the world
+  /// has gone to another moment. Error: the world rejected a command.
   Status follow(World& world, bool anew = false);
-  /// How far it has come; from any thread.
+  /// Progress of the replay; callable from any thread.
   Course course() const { return course_; }
-  /// So often has it done something to the world; from any thread.
+  /// Number of commands executed; callable from any thread.
   uint64_t deeds() const { return deeds_; }
-  /// How far it has come, where that has changed since it was asked last; for one thread.
+  /// The progress, if it has changed since the last call; for one thread only.
   std::optional<Course> take_news();
-  /// Where the replay ended otherwise than it was recorded.
+  /// An error if the replay ended in a state other than the recorded one.
   Status verdict() const;
   uint64_t last_tick() const { return replay_.last_tick(); }
   uint64_t last_hash() const { return replay_.last_hash(); }
-  /// Its file, or that of its pack.
+  /// The path of its file, or of its pack.
   const std::string& source() const { return source_; }
 
  private:
@@ -42,8 +42,8 @@ class ReplayPlayer {
   std::atomic<Course> course_ = Course::goes_on;
   std::atomic<uint64_t> deeds_ = 0;
   Course told_ = Course::goes_on;
-  /// When the world was looked at last, and how much had been done to it by then: to look at that
-  /// once more, shape by shape, is not for every question that somebody has.
+  /// Tick and number of commands at the last check whether the world is still the replay's, so that
+  /// the expensive comparison of all shapes is not repeated for every query.
   uint64_t seen_tick_ = UINT64_MAX;
   size_t seen_done_ = 0;
 };
@@ -51,12 +51,12 @@ class ReplayPlayer {
 /// Declares --play and --no-replay.
 void declare_replay(Options& options, ReplayWish& wish);
 
-/// What is played with a scene that has been loaded: the file of the request's wish, else the
-/// replay of its pack; null where there is neither, or none is wished for. What was done at the
-/// first tick is done. Errors: the replay cannot be read, or begins otherwise than the scene.
+/// The replay to play with a loaded scene: the file that the request names, otherwise the replay of
+/// its pack; null if there is none, or none is wanted. The commands of the first tick have been
+/// executed. Errors: the replay cannot be read, or begins differently from the scene.
 Result<std::shared_ptr<ReplayPlayer>> replay_of(const SceneRequest& request,
                                                 const LoadedScene& scene);
-/// A line about what replay_of() found.
+/// A line of text about the replay that replay_of() found.
 std::string replay_words(const SceneRequest& request, const LoadedScene& scene,
                          const ReplayPlayer& player);
 

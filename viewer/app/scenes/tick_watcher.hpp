@@ -6,15 +6,15 @@ namespace tumble {
 
 struct Frame;
 
-/// Looks at every tick of a session's world, on the thread that steps it. What it has seen others
-/// read from other threads: it locks.
+/// Observes every tick of a session's world, on the thread that steps it. Its results are read from
+/// other threads, so implementations must lock.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
-  /// After a tick.
+  /// Called after a tick.
   virtual void see(const Frame& frame) = 0;
-  /// The world is at another moment of its history, or at its first: what lies ahead has not
-  /// happened.
+  /// Called when the world was set to another moment of its history, or to its first: later ticks
+  /// have not happened (any more).
   virtual void go_to(const Frame& frame) = 0;
 };
 using TickWatchers = std::vector<std::shared_ptr<TickWatcher>>;

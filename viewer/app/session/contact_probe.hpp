@@ -6,17 +6,17 @@
 
 namespace tumble {
 
-/// Keeps one contact under examination: asks the world what it claims, picture after picture, and
-/// follows it as its bodies move. Answers come from the simulation thread; there is one question
-/// under way at a time, so that a world that answers slowly is not held up by many.
+/// Inspects one contact: queries its certificate for every picture and follows the contact while
+/// its bodies move. The simulation thread answers; there is at most one query under way, so that a
+/// slow world is not delayed further by many.
 class ContactProbe {
  public:
   void choose(const ContactPick& pick);
   void clear();
   bool active() const { return chosen_; }
-  /// Takes the answer that has come, and asks again when the picture is another one.
+  /// Takes an answer that has arrived, and sends a new query if the frame has changed.
   void update(Session& session, const std::shared_ptr<const Frame>& frame);
-  /// What was last heard; null when nothing was chosen or nothing has been heard yet.
+  /// The last answer; null if no contact is chosen or there is no answer yet.
   const ContactView* view() const { return known_ ? &*known_ : nullptr; }
 
  private:

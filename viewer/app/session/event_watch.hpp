@@ -8,15 +8,15 @@
 
 namespace tumble {
 
-/// Keeps the list of what happens in a session's world.
+/// Keeps the list of events in a session's world.
 class EventWatch final : public TickWatcher {
  public:
   void see(const Frame& frame) override;
   void go_to(const Frame& frame) override;
 
-  /// All that it knows of, by tick; the same list until something has happened.
+  /// All known events by tick; the same list object as long as nothing has happened.
   std::shared_ptr<const std::vector<WorldEvent>> events() const;
-  /// Whether something that the filter takes happened in the last tick that was seen.
+  /// Whether an event that passes the filter happened in the last tick seen.
   bool just_happened(const EventFilter& filter) const;
 
  private:

@@ -5,9 +5,9 @@
 
 namespace tumble {
 
-/// A body with the one nearest to it (by their bounds) that some microscope takes together with it;
-/// where there is none, or with a null body, what some microscope takes without another; nothing
-/// when there is no such microscope either.
+/// The setup for a body and the nearest other body (by bounds) that some microscope accepts as a
+/// pair. If there is none, or the body is null, the setup for a microscope that needs no second
+/// body; empty if there is no such microscope either.
 std::optional<MicroscopeSetup> find_microscope_pair(const Frame& frame, BodyId body);
 
 }  // namespace tumble

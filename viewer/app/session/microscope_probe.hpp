@@ -7,18 +7,18 @@
 
 namespace tumble {
 
-/// Asks the world for what a microscope shows, where a frame is not enough: once for each picture
-/// that stands still, on the simulation thread, since it may take as long as a tick. Nothing is
-/// asked while the world runs.
+/// Queries the world for microscope algorithms to which a frame is not enough. There is one query
+/// per shown moment, and only while the world is paused; it runs on the simulation thread, since it
+/// may take as long as a tick.
 class MicroscopeProbe {
  public:
   void clear() { *this = MicroscopeProbe{}; }
-  /// Takes the answer that has come, and asks if there is a new question.
+  /// Takes an answer that has arrived, and sends a new query if needed.
   void update(Session& session, const std::shared_ptr<const Frame>& frame,
               const std::optional<MicroscopeSetup>& setup);
   /// The last answer, or null.
   const std::shared_ptr<const MicroscopeAnswer>& said() const { return said_; }
-  /// Whether the algorithm waits for the world to stand still.
+  /// Whether the algorithm cannot be shown until the world is paused.
   bool waits() const { return waits_; }
 
  private:

@@ -8,7 +8,8 @@
 namespace tumble {
 namespace {
 
-/// Who scrubs goes elsewhere in every picture: it is begun once that has an end.
+/// While a user scrubs, every picture jumps; the computation starts after this many pictures
+/// without a jump.
 constexpr int quiet_pictures = 6;
 
 }  // namespace
@@ -53,7 +54,7 @@ void PastCurves::update(Session& session, Measures& measures, bool beside) {
                                [job = job_.get()] { return job->go(); });
   }
   if (job_->outcome.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
-  // What a tick that fails has left is true all the same.
+  // The values computed before a tick fails are valid.
   (void)job_->outcome.get();
   for (size_t i = 0; i < job_->quantities.size(); ++i)
     measures.fill(job_->quantities[i].name, job_->at[i], job_->values[i]);
@@ -68,7 +69,7 @@ void PastCurves::note_jump() {
 void PastCurves::forget() {
   if (!job_) return;
   job_->stop.request();
-  job_.reset();  // waits for the tick under way to be given up
+  job_.reset();  // waits for the tick under way to be cancelled
 }
 
 std::optional<double> PastCurves::share() const {

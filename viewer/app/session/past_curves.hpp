@@ -11,10 +11,9 @@
 
 namespace tumble {
 
-/// Gives curves that were not watched from the start their past: the way to the present is gone
-/// once more in a world of its own, from the kept moments on, beside the one that runs. At most as
-/// many ticks as a curve has room for; given up when time goes elsewhere, and begun anew from
-/// there.
+/// Computes the past of curves that were added late: recomputes the run up to the present, from
+/// kept moments, in a world of its own beside the running one. At most as many ticks as a curve
+/// holds. A computation is cancelled when time jumps, and restarted for the new present.
 class PastCurves {
  public:
   PastCurves() = default;
@@ -22,13 +21,14 @@ class PastCurves {
   PastCurves(const PastCurves&) = delete;
   PastCurves& operator=(const PastCurves&) = delete;
 
-  /// Once a picture. `beside`: on a thread of its own; else at once.
+  /// To be called once per picture. `beside`: compute on another thread, otherwise at once.
   void update(Session& session, Measures& measures, bool beside);
-  /// The world has gone to another moment: what is under way led to one that may not be there.
+  /// To be called when the world has jumped to another moment: the computation under way may lead
+  /// to a moment that is not part of its past.
   void note_jump();
-  /// Nobody wants it any more.
+  /// Cancels everything.
   void forget();
-  /// How much of what is under way is done, 0..1; nothing while nothing is.
+  /// Progress of the computation under way, 0..1; empty if there is none.
   std::optional<double> share() const;
 
  private:
@@ -40,14 +40,14 @@ class PastCurves {
     uint64_t from = 0, to = 0;  ///< ticks
     std::atomic<uint64_t> reached = 0;
     StopFlag stop;
-    std::future<Status> outcome;  ///< not valid until the way is known
+    std::future<Status> outcome;  ///< not valid until the way (see Session::way) is known
 
     Status go();
   };
   void begin(Session& session, const Measures& measures);
 
   std::unique_ptr<Job> job_;
-  int quiet_ = 0;  ///< pictures since time last went elsewhere
+  int quiet_ = 0;  ///< pictures since the last jump of time
 };
 
 }  // namespace tumble

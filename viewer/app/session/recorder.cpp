@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// A folder, or a video, of a name that is free.
+/// Makes a folder, or a video file, with an unused name.
 Status Recorder::open_output() {
   constexpr Fraction fps{60, 1};
   const std::string scene = recording_.scene.empty() ? "scene" : recording_.scene;
@@ -46,8 +46,8 @@ Status Recorder::start(Session& session, const Recording& recording) {
   return {};
 }
 
-/// The world's frame and hash of one and the same moment, after all that was posted, and of a tick
-/// that is shown what the microscope sees.
+/// Requests frame and hash of the same moment, after all jobs posted before; if the tick is
+/// `shown`, also the microscope's answer.
 std::future<Recorder::Tick> Recorder::ask(Session& session, bool shown) const {
   auto promise = std::make_shared<std::promise<Tick>>();
   auto answer = promise->get_future();
@@ -55,7 +55,7 @@ std::future<Recorder::Tick> Recorder::ask(Session& session, bool shown) const {
   session.ask(setup ? setup->algorithm : "", [promise, setup](const World& world) {
     Tick tick;
     {
-      const Stoppable whole(nullptr);  // only what the microscope sees may be left out
+      const Stoppable whole(nullptr);  // only the microscope's query may be cancelled
       tick.frame = world.frame();
       tick.hash = world.state_hash();
     }
@@ -81,7 +81,7 @@ void Recorder::advance(Session& session) {
       from_ = to_ = std::move(next);
       continue;
     }
-    // It broke down, or was cancelled: the session says why.
+    // The tick failed or was cancelled; the session reports why.
     if (next.frame->tick <= to_.frame->tick) return;
     from_ = std::exchange(to_, std::move(next));
   }
@@ -125,7 +125,7 @@ Status Recorder::stop(Session& session) {
   return finish();
 }
 
-/// frames.json lists what is on disk, also after a failure.
+/// Writes frames.json, which lists what is on disk, also after a failure.
 Status Recorder::finish() {
   if (!writer_) return {};
   const Status written = writer_->finish();

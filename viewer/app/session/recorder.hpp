@@ -13,46 +13,47 @@
 
 namespace tumble {
 
-/// What a recording is told about where it comes from and goes to.
+/// Parameters of a recording.
 struct Recording {
-  std::filesystem::path parent;  ///< gets a new folder
+  std::filesystem::path parent;  ///< a new folder is made in it
   std::string scene, renderer, version;
-  int width = 0, height = 0;  ///< of every frame, whatever becomes of the window [px]
+  int width = 0, height = 0;  ///< of every frame, independent of the window's size [px]
   bool own_thread = true;     ///< the session steps on a thread of its own
-  bool video = false;         ///< a video in place of pictures
+  bool video = false;         ///< a video instead of pictures
 };
 
-/// A frame sequence recorded from the window: while it lasts each picture is one frame at 60 a
-/// second of simulated time, whatever the wall clock says; capture blocks the simulation, never the
-/// reverse. Frames between ticks are interpolated, as those of `tumble render`.
+/// Records a sequence of frames from the window. While it lasts, each picture is one frame at 60
+/// per second of simulated time, independently of real time: the simulation waits for capture,
+/// never the reverse. Frames between ticks are interpolated, as with `tumble render`.
 class Recorder {
  public:
   bool active() const { return writer_ != nullptr; }
   uint64_t frames() const { return file_.frames.size(); }
-  /// Of the pictures; of a video its file.
+  /// The folder of the pictures, or the video file.
   const std::filesystem::path& folder() const { return folder_; }
   bool video() const { return recording_.video; }
   int width() const { return file_.width; }
   int height() const { return file_.height; }
 
-  /// What lies under the microscope: where the world is to be asked for that, it is asked at the
-  /// ticks that frames show, so that a recording holds the same whatever the wall clock does.
+  /// Sets the microscope's setup. If it needs queries of the world, these are made at the ticks
+  /// that frames show, so that the recording does not depend on real time.
   void look_through(const std::optional<MicroscopeSetup>& setup) { microscope_ = setup; }
-  /// What the world said at the tick of the next frame; null: nothing was asked.
+  /// The world's answer for the microscope at the tick of the next frame; null: no query.
   const std::shared_ptr<const MicroscopeAnswer>& said() const { return to_.said; }
   /// Pauses the session, and makes the folder or starts the video.
   Status start(Session& session, const Recording& recording);
-  /// Steps the session to the ticks around the next frame and waits for them, but not for long:
-  /// a tick may take its time while the window goes on.
+  /// Steps the session to the ticks around the next frame and waits for them, but only briefly, so
+  /// that the window keeps responding during slow ticks.
   void advance(Session& session);
-  /// The ticks around the next frame are there.
+  /// Whether the ticks around the next frame have been computed.
   bool ready() const { return active() && to_.frame && to_.frame->tick >= due(); }
-  /// While recording: shows the moment of the next frame.
+  /// Sets the view to the moment of the next frame; only while recording.
   void show(SessionView& view) const;
-  /// Hands the renderer's last picture to the encoder. After a failure the recording is over and
-  /// the session waits for stop() to go on.
+  /// Passes the renderer's last picture to the encoder. After a failure the recording has ended,
+  /// and the session stays paused until stop().
   Status add(Renderer& renderer, const Camera& camera, uint64_t draw_hash);
-  /// Waits for the last file, writes frames.json, and lets the session go on as before.
+  /// Waits for the last file, writes frames.json, and puts the session back into its former state
+  /// (running or paused).
   Status stop(Session& session);
 
  private:
@@ -72,7 +73,7 @@ class Recorder {
   std::filesystem::path folder_;
   FramesFile file_;
   Tick from_, to_;            ///< the newest two ticks
-  std::future<Tick> coming_;  ///< the one after them, when it has been asked for
+  std::future<Tick> coming_;  ///< the next one, if it has been requested
   uint64_t first_tick_ = 0;
   bool was_paused_ = false;
   std::optional<MicroscopeSetup> microscope_;

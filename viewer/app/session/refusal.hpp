@@ -10,8 +10,8 @@
 
 namespace tumble {
 
-/// Why the world refused what a person asked for, and what it took along: said by jobs on the
-/// simulation thread, which hold a copy, and taken by the window, once.
+/// Reports why the world rejected what the user requested, and what else a request changed. Written
+/// by jobs on the simulation thread, which hold a copy, and read once by the window.
 class Refusal {
  public:
   void say(const Error& error) const {
@@ -22,7 +22,7 @@ class Refusal {
     std::lock_guard lock(shared_->mutex);
     return std::exchange(shared_->error, {});
   }
-  /// What was done besides what was asked for.
+  /// Reports what was changed besides what was requested.
   void tell(std::vector<std::string> lines) const {
     std::lock_guard lock(shared_->mutex);
     shared_->told = std::move(lines);

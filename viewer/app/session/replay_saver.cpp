@@ -18,7 +18,7 @@ bool is_there(const auto& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
 }
 
-/// The scene's text with the parameters that were chosen.
+/// The scene's text with the chosen parameter values.
 Result<SceneRequest> as_file(const ReplaySaver::Beginning& beginning) {
   SceneRequest request = beginning.scene;
   if (request.overrides.size() != beginning.numbers.size())

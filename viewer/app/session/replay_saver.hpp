@@ -13,8 +13,8 @@
 
 namespace tumble {
 
-/// What was done in the window up to the moment that is shown, saved as a replay: alone, as `tumble
-/// simulate --replay` writes it, or in a pack with its scene, as `tumble pack --replay` does.
+/// Saves the user's commands up to the moment shown as a replay: alone, as `tumble simulate
+/// --replay` does, or in a pack with its scene, as `tumble pack --replay` does.
 class ReplaySaver {
  public:
   ReplaySaver() = default;
@@ -22,36 +22,37 @@ class ReplaySaver {
   ReplaySaver(const ReplaySaver&) = delete;
   ReplaySaver& operator=(const ReplaySaver&) = delete;
 
-  /// Where the world that is shown began.
+  /// The start of the run whose commands are saved.
   struct Beginning {
     SceneRequest scene;
-    std::vector<SceneEdit> numbers;  ///< parameters with other values than the file has
+    std::vector<SceneEdit> numbers;  ///< parameters whose values differ from the file's
   };
-  /// Another world is shown from now on; what is under way goes on.
+  /// Another world is shown from now on; a save under way continues.
   void open(Beginning beginning) { beginning_ = std::move(beginning); }
 
   struct Wish {
     std::filesystem::path folder;
-    std::string name;     ///< of the scene, for that of the file
-    bool packed = false;  ///< with the scene
-    bool beside = true;   ///< on a thread of its own
+    std::string name;     ///< of the scene, from which the file's name is made
+    bool packed = false;  ///< in a pack with the scene
+    bool beside = true;   ///< on another thread
   };
   struct Saved {
     std::filesystem::path file;
     uint64_t ticks = 0;
     double seconds = 0;
-    std::vector<std::string> needs;  ///< values that the scene has to be given to begin so
+    /// Parameter values ("path=value") that the scene must be given for this replay.
+    std::vector<std::string> needs;
   };
   void save(Session& session, Wish wish);
-  /// One is under way.
+  /// Whether a save is under way.
   bool busy() const { return said_.valid() || job_.valid(); }
-  /// What became of it, once.
+  /// The outcome of a save, once.
   std::optional<Result<Saved>> take();
-  /// Writes what needs no trial; a pack that is still being tried out is given up.
+  /// Completes saves that need no test run; a pack that is still being tested is dropped.
   void finish(Session& session);
 
  private:
-  /// The world's word for what was done in it.
+  /// The world's answer: the log of its commands and its hash.
   struct Said {
     Bytes replay;
     uint64_t ticks = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t most_samples = 480;
 
-/// Whether ids mean the same in both: the same bodies and joints in the same slots.
+/// Whether ids have the same meaning in both: the same bodies and joints in the same slots.
 bool made_alike(const Frame& a, const Frame& b) {
   const size_t slots = std::max(a.body_slots(), b.body_slots());
   for (size_t slot = 0; slot < slots; ++slot) {
@@ -52,7 +52,7 @@ void SecondWorld::begin(const World& a) {
   }
   world_->stop_with(stop_);
   begun_b_ = world_->tick();
-  // One of its own begins at the beginning, and so does A with it.
+  // A world with other numbers starts at its first tick, and A is restarted together with it.
   begun_a_ = from_start() ? begun_b_ : a.tick();
   const auto& log = a.replay_log().entries();
   commands_ = log.size();
@@ -95,16 +95,16 @@ void SecondWorld::go_back(const World& a) {
   see(a);
 }
 
-/// What A was told until this time since the beginning [s].
+/// Applies the commands given to A up to this time since the comparison began [s].
 void SecondWorld::carry_out(const World& a, double until) {
   const auto& log = a.replay_log().entries();
   const double tick = a.settings().tick.tick();
   for (; commands_ < log.size(); ++commands_) {
     const LoggedCommand& entry = log[commands_];
     if (double(entry.tick - begun_a_) * tick > until + 0.5 * tick) return;
-    if (shown_.alone) continue;  // ids mean other bodies there
-    if (std::holds_alternative<SetSettings>(entry.command)) continue;  // B has its own
-    (void)world_->submit(entry.command);  // what B has lost cannot be changed in it
+    if (shown_.alone) continue;  // ids would refer to other bodies
+    if (std::holds_alternative<SetSettings>(entry.command)) continue;  // B has its own settings
+    (void)world_->submit(entry.command);  // a command for something that B has lost is ignored
   }
 }
 
@@ -141,7 +141,7 @@ void SecondWorld::see(const World& a) {
   } else {
     shown_.to = frame_b;
   }
-  // Only at moments that both have.
+  // Compared only at times that both have.
   if (std::abs(apart) > 1e-9) return;
   shown_.now = d;
   if (!d.same_bits && !shown_.first) shown_.first = d;

@@ -13,23 +13,23 @@
 
 namespace tumble {
 
-/// World B of a comparison, chosen otherwise than A and stepped beside it under the same commands.
-/// It begins as A was at one moment, with other settings, or, where its numbers make another scene
-/// of it, as that scene at its first tick. A Session steps both on its thread; what is shown may be
-/// asked from any other one.
+/// World B of a comparison, which has other choices than A and receives the same commands. It
+/// starts as a copy of A's state with other settings or, if its numbers make it a different scene,
+/// as that scene at its first tick. A Session steps both on its thread; results can be read from
+/// any thread.
 class SecondWorld {
  public:
   explicit SecondWorld(WorldChoice choice) : choice_(std::move(choice)) {}
-  /// The same scene with other numbers, at its first tick.
+  /// World B for a scene with other numbers; `made` is that scene at its first tick.
   SecondWorld(WorldChoice choice, const World& made);
 
   // -- simulation thread --------------------------------------------------------------------------
-  /// B becomes what A is now, with its own settings, or begins at its own first tick and catches
-  /// up. A failure is shown, and stops B.
+  // Makes B a copy of A's present state with B's own settings, or sets it to its own first tick and
+  // steps it to A's time. A failure is reported in the comparison and stops B.
   void begin(const World& a);
-  /// Carries out what was done to A since, but for settings, and steps B up to A's moment.
+  /// Applies A's commands since the last call, except for settings, and steps B to A's time.
   void follow(const World& a);
-  /// A has gone back on its own course: B goes with it, or begins anew where it was not there yet.
+  /// A has gone back in time: B does so too, or starts anew if it did not exist at that time.
   void go_back(const World& a);
   void stop_with(const StopFlag* flag);
 
@@ -38,21 +38,21 @@ class SecondWorld {
     double time = 0, distance = 0;  ///< [s], [m]
   };
   struct Shown {
-    std::shared_ptr<const Frame> from, to;  ///< of B: beside A's frames of these ticks
+    std::shared_ptr<const Frame> from, to;  ///< of B, for A's frames at these ticks
     uint64_t tick_from = 0, tick_to = 0;    ///< of A
-    std::vector<Sample> samples;            ///< of the latest moments that both have, oldest first
-    std::optional<Divergence> first;        ///< the first moment at which a bit differs
-    std::optional<ContactDifference> first_contact;  ///< that differed
-    bool alone = false;  ///< it has other bodies: what is done to A is not done to it
+    std::vector<Sample> samples;      ///< at the latest times that both have reached, oldest first
+    std::optional<Divergence> first;  ///< the first tick at which any bit differs
+    std::optional<ContactDifference> first_contact;  ///< the first contact that differs
+    bool alone = false;  ///< B has other bodies: commands to A are not applied to it
     Divergence now, worst;
-    std::string fault;  ///< why B stopped; empty: it did not
+    std::string fault;  ///< why B has stopped; empty: it runs
   };
   Shown shown() const;
   const WorldChoice& choice() const { return choice_; }
   bool from_start() const { return !origin_.empty(); }
 
  private:
-  /// B's time since the beginning over that of A, in ticks of B.
+  /// The time that A has run since the comparison began, in ticks of B.
   double ticks_of_b(const World& a) const;
   void carry_out(const World& a, double until);
   void see(const World& a);
@@ -61,12 +61,12 @@ class SecondWorld {
   Status make(const World& a);
 
   WorldChoice choice_;
-  Bytes origin_;  ///< of a world of its own, at its first tick; empty: it is what A was
+  Bytes origin_;  ///< snapshot of B's own first tick; empty if B started as a copy of A
   std::unique_ptr<World> world_;
   KeyframeRing keyframes_;
   const StopFlag* stop_ = nullptr;
-  uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both at the beginning
-  size_t commands_ = 0;                 ///< of A's log that were carried out
+  uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both when the comparison began
+  size_t commands_ = 0;                 ///< number of commands of A's log that were applied
 
   mutable std::mutex mutex_;
   Shown shown_;

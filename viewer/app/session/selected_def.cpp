@@ -47,7 +47,7 @@ void SelectedDef::expect(const EditBody& edit) {
   auto changed = std::make_shared<BodyDef>(*def_);
   edit.change(*changed);
   def_ = std::move(changed);
-  ask_again();  // whether the world agrees or not
+  ask_again();  // whether or not the world accepts the edit
 }
 
 }  // namespace tumble

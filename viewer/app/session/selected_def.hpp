@@ -8,22 +8,22 @@
 
 namespace tumble {
 
-/// The definitions of the selected body and of its joints, asked from the world whenever the
-/// selection or anything that bodies are made of has changed. One question is under way at a time.
+/// The definitions of the selected body and its joints, queried from the world whenever the
+/// selection or the definition of any body has changed. At most one query is under way.
 class SelectedDef {
  public:
   using Joints = std::vector<SelectedJoint>;
 
-  /// Takes the answer that has come, and asks anew where it would be another.
+  /// Takes an answer that has arrived, and sends a new query if it is outdated.
   void update(Session& session, const Frame& frame, BodyId selected);
-  /// Shows a change before the world has made it.
+  /// Shows the effect of an edit before the world has executed it.
   void expect(const EditBody& edit);
   void expect(const EditJoint& edit);
-  /// Asks anew, whatever has changed.
+  /// Forces a new query.
   void ask_again() { asked_with_ = nullptr; }
-  /// Null while nothing is selected, or nothing is known yet.
+  /// Null if nothing is selected, or not known yet.
   std::shared_ptr<const BodyDef> def() const { return def_; }
-  /// Those at the body, in the order of their slots; null likewise.
+  /// The joints at the body by slot; null if nothing is selected, or not known yet.
   std::shared_ptr<const Joints> joints() const { return joints_; }
   void forget() { *this = SelectedDef{}; }
 
@@ -35,8 +35,9 @@ class SelectedDef {
   std::future<Known> answer_;
   std::shared_ptr<const BodyDef> def_;
   std::shared_ptr<const Joints> joints_;
-  BodyId asked_;                                             ///< for this body,
-  std::shared_ptr<const std::vector<BodyInfo>> asked_with_;  ///< when this was known of it
+  BodyId asked_;  ///< the body of the last query
+  /// And the state of all bodies when it was sent.
+  std::shared_ptr<const std::vector<BodyInfo>> asked_with_;
 };
 
 }  // namespace tumble

@@ -13,9 +13,9 @@
 namespace tumble {
 namespace {
 
-/// Real time is given up once the simulation is this far behind it [s].
+/// Real time is skipped once the simulation is this far behind [s].
 constexpr double most_behind = 0.1;
-/// From then on nobody waits for a tick who wants to go back [s].
+/// A tick under way for longer than this is cancelled by requests to go back [s].
 constexpr double slow_tick = 0.1;
 
 using Seconds = std::chrono::duration<double>;
@@ -24,11 +24,11 @@ std::chrono::steady_clock::duration to_clock(double seconds) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(seconds));
 }
 
-/// Bodies that push each other, each pair once.
+/// Pairs of bodies that press on each other, each pair once.
 std::vector<std::pair<uint32_t, uint32_t>> pushing_pairs(const Frame& frame) {
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
   if (!frame.contacts) return pairs;
-  for (const ContactFrame& c : *frame.contacts)  // what rests does not strike
+  for (const ContactFrame& c : *frame.contacts)  // contacts without an impulse do not press
     if (c.impulse.squaredNorm() > 0) pairs.push_back(std::minmax(c.a.index, c.b.index));
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -50,7 +50,7 @@ struct Session::Kept {
 };
 
 struct Session::Way {
-  Bytes world;  ///< geometry included
+  Bytes world;  ///< including geometry
   ReplayLog log;
   KeyframeRing keyframes;
   uint64_t tick = 0;
@@ -122,9 +122,9 @@ void Session::post(std::function<void(World&)> change) {
   enqueue([this, change = std::move(change)] {
     change(*world_);
     if (!world_->apply_commands()) return;
-    (void)follow_replay();  // it may have been left
+    (void)follow_replay();  // the command may have ended the replay
     if (second_) second_->follow(*world_);
-    // While paused nothing else would show it.
+    // While paused nothing else would publish it.
     if (paused()) {
       previous_ = world_->frame();
       publish(0);
@@ -227,7 +227,8 @@ void Session::seek(uint64_t tick) {
     std::lock_guard lock(mutex_);
     ++seeks_asked_;
   }
-  // One thing however many ticks it takes: what waits for it can give it up as it can a slow tick.
+  // A seek counts as one job, however many ticks it takes: waiting requests can cancel it like a
+  // slow tick.
   interrupt_if_slow([this, tick] {
     timed([&] {
       go_to(tick);
@@ -326,13 +327,13 @@ std::optional<std::pair<uint64_t, uint64_t>> Session::ticks_of(const Way& way) {
 Status Session::go(const Way& way, uint64_t from, const StopFlag& stop,
                    const std::function<bool(const World&)>& each) {
   WorldDef def;
-  def.threads = 1;  // the others are the running world's
+  def.threads = 1;  // the other cores are left to the running world
   auto made = World::create(std::move(def));
   if (!made) return made.error();
   World& world = **made;
   world.stop_with(&stop);
   if (const Status done = world.load(way.world); !done) return done;
-  // The same moment with the commands that led to it.
+  // The same moment, but with the log of the run to be followed.
   if (const Status done = world.restore({world.save(false), way.log}); !done) return done;
   return way.keyframes.walk(world, from, each);
 }
@@ -380,7 +381,7 @@ void Session::go_to(uint64_t tick) {
     std::shared_ptr<const Frame> before;
     const Status found = timed([&] { return keyframes_.seek(*world_, tick, &before); });
     if (!found) fail(found.error());
-    // Whoever comes back here once more, as loops do, need not compute the way again.
+    // Later jumps to this tick, e.g. by loops, need not compute it again.
     if (found && keyframes_.last_tick() < world_->tick()) keyframes_.keep(*world_);
     if (second_) second_->go_back(*world_);
     note_rewind();
@@ -438,7 +439,7 @@ void Session::note_rewind() {
 }
 
 void Session::fail(const Error& error) {
-  if (error.code == ErrorCode::cancelled) return;  // somebody wanted it
+  if (error.code == ErrorCode::cancelled) return;  // cancelled on request
   std::lock_guard lock(mutex_);
   fault_ = error;
   counters_.paused = true;
@@ -520,8 +521,8 @@ void Session::run() {
       publish(0);
       continue;
     }
-    // The frame just made is due one span after the one before it: motion is shown one tick late,
-    // and so always between two known frames.
+    // The new frame is due one span after the one before it: motion is shown one tick late, so that
+    // it is always interpolated between two known frames.
     publish(span);
     next_due_ += to_clock(span);
     const double late = Seconds(Clock::now() - next_due_).count();

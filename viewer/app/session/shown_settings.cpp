@@ -11,9 +11,11 @@ namespace tumble {
 struct ShownSettings::Shared {
   std::mutex mutex;
   WorldSettings value;
-  std::optional<WorldSettings> of_replay;  ///< what a replay has made of them; none: nothing
-  uint64_t changes = 0;          ///< so far: of two under way the answer to the older is no news
-  std::optional<Error> refused;  ///< the newest change, until it is said
+  /// Settings as a replay has made them; none: it has not changed them.
+  std::optional<WorldSettings> of_replay;
+  /// Number of changes so far, to ignore the answer to a change that is not the newest.
+  uint64_t changes = 0;
+  std::optional<Error> refused;  ///< rejection of the newest change, until it is reported
 };
 
 void ShownSettings::open(const WorldSettings& of_scene) {

@@ -10,29 +10,28 @@
 
 namespace tumble {
 
-/// The settings of the world as panels show and change them. A change is shown at once; what the
-/// world refuses is taken back, and said once.
+/// The world's settings as panels show and change them. A change is shown at once; if the world
+/// rejects it, it is undone and reported once.
 class ShownSettings {
  public:
-  /// Of a scene that has been opened.
+  /// Takes the settings of a scene that was opened.
   void open(const WorldSettings& of_scene);
   WorldSettings value() const;
   void change(Session& session, const WorldSettings& wanted);
-  /// Takes over what the world has by now: it has gone back, say. `of_replay`: as a replay that is
-  /// followed has made them, which is nobody's choice.
+  /// Takes over the world's present settings, e.g. after going back in time. `of_replay`: a replay
+  /// made them, so they do not count as the user's choice.
   void fetch(Session& session, bool of_replay);
-  /// Restarts the world with the settings that hold now, or with those of the scene: history does
-  /// not know which of them a person wants to keep. Names those in which the two differ. What only
-  /// a replay has changed it will change again. `begin` does to the world at its first tick what
-  /// belongs to its beginning besides.
+  /// Restarts the world with the present settings, or (`as_scene`) with those of the scene. Returns
+  /// the names of settings in which the two differ. Settings changed only by a replay are reset,
+  /// since the replay will change them again. `begin` is applied to the world at its first tick.
   std::vector<std::string> restart(Session& session, bool as_scene,
                                    std::function<void(World&)> begin = {});
   const WorldSettings& of_scene() const { return of_scene_; }
-  /// Why the newest change was refused, once.
+  /// Why the newest change was rejected, once.
   std::optional<Error> take_refusal();
 
  private:
-  /// What jobs on the simulation thread write too.
+  /// State that jobs on the simulation thread also write.
   struct Shared;
   std::shared_ptr<Shared> shared_;
   WorldSettings of_scene_;

@@ -29,7 +29,7 @@ void ShownWorld::advance(double dt) {
   if (own_thread_) return;
   uint64_t ticks = 0;
   if (!session_->paused()) {
-    // Rounded up a little, so that 60 pictures of 1/60 s are 60 ticks of 1/60 s.
+    // Rounded up slightly, so that 60 pictures of 1/60 s give 60 ticks of 1/60 s.
     behind_ticks_ += dt * session_->speed() / view_.to->rate.tick();
     ticks = uint64_t(behind_ticks_ + 1e-6);
     behind_ticks_ = std::max(0.0, behind_ticks_ - double(ticks));

@@ -9,11 +9,12 @@
 
 namespace tumble {
 
-/// The running world as pictures see it: its session, the moment that is shown, the snapshot that a
-/// person keeps (F5) and the sequence that is recorded from it (F9).
+/// The running world as it is drawn: its session, the moment shown, the user's snapshot (F5) and
+/// the sequence being recorded (F9).
 class ShownWorld {
  public:
-  /// `own_thread` false: advance() steps the world, by dt: same input, same bits.
+  /// With `own_thread` false, advance() steps the world by dt, so that equal input gives equal
+  /// bits.
   explicit ShownWorld(bool own_thread) : own_thread_(own_thread) {}
 
   /// Shows another world from its first frame on.
@@ -26,17 +27,17 @@ class ShownWorld {
   const SessionView& view() const { return view_; }
   const Frame& frame() const { return *view_.to; }
 
-  /// Lets simulated time pass for a picture: dt seconds, or one frame of a recording.
+  /// Advances simulated time for a picture: by dt seconds, or by one frame of a recording.
   void advance(double dt);
-  /// What the newest view is to the last one.
+  /// How the newest view relates to the one before.
   enum class News : uint8_t {
-    none,  ///< the world that was asked for is not there yet: its first frame stays
+    none,  ///< the requested world has not been computed yet: the frame stays
     goes_on,
     back,   ///< it was restarted or stepped back
-    ahead,  ///< it was put to a later moment, and nobody has seen the way
+    ahead,  ///< it was set to a later moment, without the frames between
   };
   News look();
-  /// Why the simulation has stopped; each reason once.
+  /// Why the simulation has stopped; each reason is returned once.
   std::optional<std::string> take_fault();
 
   void keep_snapshot() { snapshot_ = session_->keep(); }
@@ -48,9 +49,9 @@ class ShownWorld {
   std::unique_ptr<Session> session_;
   Recorder recorder_;
   SessionView view_;
-  uint64_t generation_ = 0;                  ///< of the view; 0: of a new world nothing was seen
-  uint64_t number_ = 0;                      ///< which world, as Session::replace() counts
-  double behind_ticks_ = 0;                  ///< without an own thread: part of a tick that is due
+  uint64_t generation_ = 0;  ///< generation of the view; 0: nothing of a new world was seen yet
+  uint64_t number_ = 0;      ///< number of the world from Session::replace()
+  double behind_ticks_ = 0;  ///< without an own thread: the fraction of a tick that is due
   std::shared_ptr<Session::Kept> snapshot_;  ///< null: none yet
   std::string said_fault_;
 };

@@ -7,8 +7,8 @@ namespace tumble {
 
 class World;
 
-/// Writes what every contact of the world claims at present as one JSON object, whole or not at
-/// all: `contacts` (bodies by name, positions, gap, velocities, force, mode, place in the cone,
+/// Writes the certificates of all contacts of the world as one JSON object, whole or not at all:
+/// `contacts` (bodies by name, positions, gap, velocities, force, mode, place in the friction cone,
 /// residuals, solver) and `bodies` (the balance of forces on each), SI units, world axes.
 Status write_certificates(const World& world, const std::filesystem::path& file);
 

@@ -59,13 +59,13 @@ double energy_difference(const Frame& a, const Frame& b) {
   return std::fabs(a.stats.energies.total() - b.stats.energies.total());
 }
 
-/// log2(coarse / fine), where both are above rounding.
+/// log2(coarse / fine), if both are above rounding.
 std::optional<double> observed_order(double coarse, double fine, double rounding) {
   if (!(coarse > rounding) || !(fine > rounding)) return std::nullopt;
   return std::log2(coarse / fine);
 }
 
-/// With value(h) = exact + C h^p the differences are C h^p (1 - 2^-p) and that over 2^p.
+/// With value(h) = exact + C h^p, the differences are C h^p (1 - 2^-p), and that divided by 2^p.
 void estimate_errors(ConvergenceRow& row) {
   if (!row.order || !(*row.order > 0.05)) {
     row.error = {row.difference[0], row.difference[1], row.difference[1]};
@@ -107,9 +107,9 @@ Result<ConvergenceReport> measure_convergence(const SceneRequest& request, uint6
     out.rows.push_back(std::move(row));
   };
   add("position", "m", 1 + reach, position_difference);
-  add("orientation", "rad", 1e6, orientation_difference);  // 1e-8: arc cosine of almost 1
+  add("orientation", "rad", 1e6, orientation_difference);  // 1e-8: arc cosine near 1
   add("velocity", "m/s", 1, velocity_difference);
-  add("energy", "J", 1e3 * (1 + energy), energy_difference);  // many small errors
+  add("energy", "J", 1e3 * (1 + energy), energy_difference);  // sum of many rounding errors
   return out;
 }
 

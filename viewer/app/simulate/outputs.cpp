@@ -22,7 +22,7 @@ std::string vector_columns(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
-/// A name as a CSV field: quoted where it must be.
+/// A name as a CSV field, quoted if necessary.
 std::string field(std::string_view text) {
   if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
   std::string out = "\"";
@@ -111,11 +111,11 @@ void EnergyCsv::write_row(const Frame& frame) {
                       s.max_penetration, s.events, s.impacts, s.fallbacks, s.time_stepped);
   line += ledger_values(*frame.ledger);
   for (const SensorId id : sensors_) {
-    // Nothing destroys the sensors of a scene while it is simulated.
+    // The sensors of a scene always exist while it is simulated.
     const auto sensor = std::ranges::find(*frame.sensors, id, &SensorFrame::id);
     for (const SensorValue& v : sensor_values(*sensor)) line += numbers({v.value});
   }
-  // What a joint that broke no longer has is an empty cell.
+  // A coordinate that a broken joint no longer has is an empty cell.
   for (const std::string& name : named_) {
     const auto value = quantity(*names_, frame, name);
     line += value ? numbers({*value}) : ",";
@@ -131,8 +131,8 @@ void EnergyCsv::write_row(const Frame& frame) {
 
 void EnergyCsv::add(const Frame& frame) {
   if (!file_.wanted()) return;
-  // The initial state had no stages to go through: its row waits for the first step, which names
-  // them.
+  // The initial state has no stage times: its row is written with the first step, which names the
+  // stages.
   if (!header_ && !first_) {
     first_ = std::make_shared<Frame>(frame);
     return;
@@ -171,7 +171,8 @@ void ContactCsv::add(const Frame& frame) {
 
 namespace {
 
-/// Value, rate and motor of each coordinate in the order of the kind's list; empty cells behind.
+/// Value, rate and motor of each coordinate in the order of the kind's list, padded with empty
+/// cells.
 std::string coordinates_text(const JointFrame& joint) {
   std::string out;
   for (size_t k = 0; k < most_coordinates; ++k) {
@@ -224,7 +225,7 @@ void StageTrace::event(std::string_view name, double begin, double seconds, uint
 
 void StageTrace::add(uint64_t tick, const StageTimes& stages, double begin, double seconds) {
   event("step", begin, seconds, tick);
-  // Stages follow each other; only their lengths are known.
+  // Only the lengths of the stages are known; they run one after the other.
   double at = begin;
   for (const StageTime& stage : stages) {
     event(stage.name, at, stage.seconds, tick);

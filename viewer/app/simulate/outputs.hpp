@@ -13,11 +13,11 @@ namespace tumble {
 class World;
 struct BuiltScene;
 
-/// One row a tick: time, energies, momenta, contacts, what every cause has done since the start
-/// (work, and the change of the energy by it), what sensors say, coordinates and reactions of
-/// joints, count, speed and temperature of particle systems by the names of quantity(), and the
-/// wall time of each stage. More than `most_joints`
-/// joints are left out: JointCsv has a row for each. The columns are those of the first step;
+/// CSV with one row per tick: time, energies, momenta, contacts, the contribution of every cause
+/// since the start (work, and the change of energy by it), readings of sensors, coordinates and
+/// reactions of joints, count, speed and temperature of particle systems under the names of
+/// quantity(), and the wall time of each stage. If there are more than `most_joints` joints, the
+/// others are left out; JointCsv has a row for each. The columns are fixed at the first step:
 /// stages that appear later are left out, and so are forces without a name.
 class EnergyCsv {
  public:
@@ -38,12 +38,12 @@ class EnergyCsv {
   std::vector<std::string> stages_;
   std::vector<SensorId> sensors_;
   std::shared_ptr<const BuiltScene> names_;
-  std::vector<std::string> named_;  ///< names of quantity()
+  std::vector<std::string> named_;  ///< names for quantity()
   bool header_ = false;
   std::string start_row_;
 };
 
-/// One row a contact and tick: who, where, normal, gap, impulse and force.
+/// CSV with one row per contact and tick: bodies, position, normal, gap, impulse and force.
 class ContactCsv {
  public:
   explicit ContactCsv(const std::filesystem::path& file);
@@ -55,12 +55,12 @@ class ContactCsv {
   FileWriter file_;
 };
 
-/// One row a joint and tick, the start included: the reaction on B at that moment, with the torque
-/// about B's anchor, and the means over the tick before it.
+/// CSV with one row per joint and tick, the start included: the reaction on B at that moment, with
+/// its torque about B's anchor, and the means over the tick before it.
 class JointCsv {
  public:
   explicit JointCsv(const std::filesystem::path& file);
-  /// Error: the reactions could not be solved for.
+  /// Error: the reactions could not be computed.
   Status add(const World& world);
   Status commit() { return file_.commit(); }
   Status status() const { return file_.status(); }
@@ -69,11 +69,11 @@ class JointCsv {
   FileWriter file_;
 };
 
-/// The stages of every step as a Chrome trace (chrome://tracing, Perfetto).
+/// The stages of every step in the format of Chrome traces (chrome://tracing, Perfetto).
 class StageTrace {
  public:
   explicit StageTrace(const std::filesystem::path& file);
-  /// A step that began so many seconds after the first one.
+  /// Adds a step. `begin_seconds`: its start after that of the first one.
   void add(uint64_t tick, const StageTimes& stages, double begin_seconds, double seconds);
   Status commit();
   Status status() const { return file_.status(); }

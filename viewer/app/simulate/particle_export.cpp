@@ -16,10 +16,10 @@
 namespace tumble {
 namespace {
 
-/// Behind the name of a system in the name of a file of its surface; names in scenes have no '-'.
+/// Appended to a system's name in the name of its surface file; names in scenes have no '-'.
 constexpr const char* surface_mark = "-surface";
 
-/// The skin about particles; without any, a mesh without triangles.
+/// The surface around particles; without particles, a mesh without triangles.
 Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell, Crew* crew) {
   double sum = 0;
   for (const double radius : particles.radius) sum += radius;
@@ -30,7 +30,7 @@ Result<TriangleMesh> surface_of(const ParticleSample& particles, double cell, Cr
   return isosurface(*field);
 }
 
-/// Files of earlier exports of these systems, and their list, in the order of their names.
+/// Existing files of earlier exports of these systems, and their list, sorted by name.
 std::vector<std::filesystem::path> export_files(const std::filesystem::path& folder,
                                                 const std::vector<std::string>& stems) {
   std::vector<std::filesystem::path> out;
@@ -116,13 +116,14 @@ Status ParticleExport::make_room() {
     list_.frames.resize(kept_);
   }
   remove_temporary_files(folder);
-  // What would be written again, and what lies beyond the run and would get into a film of it.
+  // Removes files that will be written again, and those after the end of this run, which would
+  // otherwise be taken for a part of it.
   std::error_code code;
   for (const auto& file : files)
     if (const std::string name = file.filename().string();
         name != export_list_name && !among(list_.frames, name))
       std::filesystem::remove(file, code);
-  return save_list();  // first, so that an unwritable folder costs no simulation
+  return save_list();  // first, so that an unwritable folder is detected before simulating
 }
 
 Status ParticleExport::add(const World& world) {
@@ -157,7 +158,7 @@ Status ParticleExport::write_frame(const World& world, uint64_t k) {
       return written;
   }
   list_.frames.push_back(std::move(record));
-  // So that even a run that is killed can be resumed.
+  // Saved regularly, so that even a run that is killed can be resumed.
   if (std::chrono::steady_clock::now() - list_saved_ > std::chrono::seconds(2)) return save_list();
   return {};
 }

@@ -12,7 +12,7 @@ namespace tumble {
 
 class World;
 
-/// The names that `--format` knows: "ply", "vtu".
+/// The formats of `--format`: "ply", "vtu".
 const std::vector<std::string>& particle_formats();
 
 struct ParticleExportOptions {
@@ -20,32 +20,34 @@ struct ParticleExportOptions {
   std::string format = "ply";    ///< one of particle_formats()
   Fraction fps{30, 1};
   uint64_t frames = 0;
-  /// Also SYSTEM-surface_000042.ply, one skin about all particles (geometry/isosurface), of cells
-  /// of this edge [m]; 0: half the mean radius of the frame's particles.
+  /// If set, also writes SYSTEM-surface_000042.ply, the surface around all particles
+  /// (geometry/isosurface), with cells of this edge [m]; 0: half the mean radius of the frame's
+  /// particles.
   std::optional<double> surface;
-  bool resume = false;  ///< go on where an earlier run of the same kind stopped
+  bool resume = false;  ///< continue where an earlier run of the same kind stopped
   bool force = false;   ///< overwrite files that exist
-  int threads = 0;      ///< of what surfaces are made by; 0: one per core
+  int threads = 0;      ///< for computing surfaces; 0: one per core
   std::string version, scene;
-  std::string run;  ///< equal for runs that may continue each other
+  std::string run;  ///< key that is equal for runs that may continue each other
 };
 
-/// Writes the particles of a world while it runs: for frame k, the state at k / fps, a file for
-/// every system, SYSTEM_000042.ply or .vtu; particles.json tells of all, and for .vtu SYSTEM.pvd
-/// says which is when; where surfaces are wanted, a mesh of each. Every file appears whole or not
-/// at all.
+/// Writes the particles of a world while it runs. For frame k, the state at time k / fps, there is
+/// a file for every system, SYSTEM_000042.ply or .vtu, and a mesh of the surface if requested.
+/// particles.json lists them, and for .vtu SYSTEM.pvd gives their times. Every file appears whole
+/// or not at all.
 class ParticleExport {
  public:
-  /// Nothing is exported.
+  /// Exports nothing.
   ParticleExport() = default;
-  /// Prepares the folder; the world is at tick 0. Errors: `not_found` when it has no particle
-  /// systems, `io` when files exist that may not be touched, or when nothing can be written.
+  /// Prepares the folder; the world must be at tick 0. Errors: `not_found` if the world has no
+  /// particle systems, `io` if files exist that must not be overwritten, or if nothing can be
+  /// written.
   static Result<ParticleExport> begin(const World& world, const ParticleExportOptions& options);
 
-  /// To be called at tick 0 and after every tick. Writes the frames that became due. Error
-  /// `internal`: resumed, but the simulation is not the one that was interrupted.
+  /// To be called at tick 0 and after every tick. Writes the frames that are due. Error `internal`:
+  /// after resuming, the simulation differs from the interrupted one.
   Status add(const World& world);
-  /// Brings particles.json and the collections up to date.
+  /// Updates particles.json and the .pvd files.
   Status commit();
   Status status() const { return status_; }
 
@@ -64,13 +66,13 @@ class ParticleExport {
   Status save_list();
 
   ParticleExportOptions options_;
-  std::unique_ptr<Crew> crew_;  ///< for surfaces
+  std::unique_ptr<Crew> crew_;  ///< for computing surfaces
   std::optional<FolderLock> lock_;
   std::vector<ParticleSystemId> systems_;
   ExportList list_;
-  uint64_t kept_ = 0;  ///< frames of the run that is continued
-  uint64_t next_ = 0;  ///< frame
-  /// The systems at the tick before, when a frame lies between it and the next.
+  uint64_t kept_ = 0;  ///< frames kept from the run that is continued
+  uint64_t next_ = 0;  ///< next frame to be written
+  /// The systems at the tick before, if a frame lies between it and the next tick.
   std::vector<ParticleSystem> before_;
   Status status_;
   std::chrono::steady_clock::time_point list_saved_;

@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-/// States of earlier runs and their list, in the order of their names.
+/// Existing states of earlier runs and their list, sorted by name.
 std::vector<std::filesystem::path> state_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> out;
   std::error_code code;
@@ -74,7 +74,7 @@ Status StateExport::make_room() {
         list_.states, [&](const SavedState& s) { return state_file_name(s.tick) == name; });
     if (name != state_list_name && !kept) std::filesystem::remove(file, code);
   }
-  return save_list();  // first, so that an unwritable folder costs no simulation
+  return save_list();  // first, so that an unwritable folder is detected before simulating
 }
 
 Status StateExport::skip(World& world) {
@@ -116,7 +116,7 @@ Status StateExport::write(const World& world) {
       !written)
     return written;
   list_.states.push_back({world.tick(), world.state_hash(), hash_bytes(bytes)});
-  // So that even a run that is killed can be resumed.
+  // Saved regularly, so that even a run that is killed can be resumed.
   if (std::chrono::steady_clock::now() - list_saved_ > std::chrono::seconds(2)) return save_list();
   return {};
 }

@@ -11,29 +11,29 @@ class World;
 
 struct StateExportOptions {
   std::filesystem::path folder;  ///< empty: nothing is saved
-  StateList list;                ///< all but the states; `run` without what the world adds
-  uint64_t last_tick = 0;        ///< of the run
-  bool geometry = false;         ///< the run may make shapes that the scene has not
-  bool resume = false;           ///< go on where an earlier run of the same kind stopped
-  bool force = false;            ///< overwrite states that exist
+  StateList list;  ///< the list without its states; its `run` is completed by the world's state
+  uint64_t last_tick = 0;  ///< last tick of the run
+  bool geometry = false;   ///< the run may create shapes that the scene does not have
+  bool resume = false;     ///< continue where an earlier run of the same kind stopped
+  bool force = false;      ///< overwrite states that exist
 };
 
-/// Saves a world while it runs, at every tick that frames at the list's rate need. Every file
-/// appears whole or not at all.
+/// Saves the states of a world while it runs, at every tick that the frames of the list's rate
+/// need. Every file appears whole or not at all.
 class StateExport {
  public:
-  /// Nothing is saved.
+  /// Saves nothing.
   StateExport() = default;
-  /// Prepares the folder. Error `io`: files exist that may not be touched, or nothing can be
+  /// Prepares the folder. Error `io`: files exist that must not be overwritten, or nothing can be
   /// written.
   static Result<StateExport> begin(const StateExportOptions& options);
 
-  /// The last state that is there brings the world on to its tick, for a resumed run from whose
-  /// beginning nothing else is wanted; the last before the run's end, so that a tick is left to
-  /// simulate: a world that was only loaded has no statistics of a tick.
+  /// For a resumed run whose other outputs need no earlier ticks: loads the last saved state into
+  /// the world, but at most the last one before the end of the run, so that at least one tick is
+  /// simulated (a world that was only loaded has no statistics of a tick).
   Status skip(World& world);
-  /// To be called at tick 0 and after every tick. Error `internal`: resumed, but the simulation is
-  /// not the one that was interrupted.
+  /// To be called at tick 0 and after every tick. Error `internal`: after resuming, the simulation
+  /// differs from the interrupted one.
   Status add(const World& world);
   Status commit();
   Status status() const { return status_; }
@@ -52,8 +52,8 @@ class StateExport {
   StateExportOptions options_;
   std::optional<FolderLock> lock_;
   StateList list_;
-  size_t kept_ = 0;     ///< of the run that is continued
-  uint64_t frame_ = 0;  ///< the first that does not lie before the present tick
+  size_t kept_ = 0;     ///< states kept from the run that is continued
+  uint64_t frame_ = 0;  ///< the first frame that is not before the present tick
   Status status_;
   std::chrono::steady_clock::time_point list_saved_;
 };

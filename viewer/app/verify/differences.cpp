@@ -19,7 +19,7 @@ std::string spaced(std::string_view name) {
   return words;
 }
 
-/// A value as files and as people write it. Names speak for themselves.
+/// A value in the form of scene files and in that for display. Names are enough for themselves.
 struct WrittenValue {
   std::string path, value, words;
 };
@@ -80,7 +80,8 @@ std::vector<WrittenValue> written(const WorldSettings& settings) {
   return std::move(out.all);
 }
 
-/// What only one of two worlds names is as the other has it.
+/// A number that only one choice names has in that world the value given there; the other world has
+/// the scene's.
 void add_numbers(const WorldChoice& a, const WorldChoice& b, std::vector<WorldDifference>& out) {
   for (const auto& [name, of_a] : a.numbers)
     for (const auto& [same, of_b] : b.numbers) {

@@ -11,23 +11,24 @@ namespace tumble {
 
 struct SceneDescription;
 
-// In what two worlds of one scene differ: the one list of `tumble verify` and the panel Compare.
+// The differences between two worlds of one scene, for `tumble verify` and the panel Compare.
 
-/// Everything in which they do, in the order of declaration: settings, numbers of the scene, how
-/// it is computed.
+/// All differences in order of declaration: settings, numbers of the scene, threads and instruction
+/// set.
 std::vector<WorldDifference> differences(const WorldChoice& a, const WorldChoice& b);
-/// What B needs of A's scene to be opened as it is: "path=value" of each that a scene has.
+/// The overrides "path=value" with which A's scene is opened as B; differences that do not belong
+/// to a scene are left out.
 std::vector<std::string> overrides_of(std::span<const WorldDifference> differences);
-/// Names of the settings in which two worlds differ, as the scene file and the panel have them.
+/// Names of the settings that differ, as in scene files and panels.
 std::vector<std::string> changed_settings(const WorldSettings& a, const WorldSettings& b);
-/// What world A and world B are called by their differences: "event" and "realtime", "gravity 0
-/// -1.6 0" ...; of many the first two. Both empty where there are none.
+/// Titles of world A and world B by their differences: "event" and "realtime", "gravity 0 -1.6 0"
+/// ...; of many differences the first two. Both empty if there are none.
 std::pair<std::string, std::string> names_by(std::span<const WorldDifference> differences);
 
-/// The numbers that a scene declares, as it has them.
+/// The numbers that a scene declares, with their values.
 std::vector<std::pair<std::string, double>> numbers_of(const SceneDescription& scene);
-/// Takes "threads=N" and "simd=NAME" out of a list of "path=value", into the choice. Error: they
-/// have no such value.
+/// Moves "threads=N" and "simd=NAME" from a list of "path=value" into the choice. Error: an invalid
+/// value.
 Status take_machine(std::vector<std::string>& overrides, WorldChoice& choice);
 
 }  // namespace tumble

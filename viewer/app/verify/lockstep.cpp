@@ -23,7 +23,7 @@ std::string body_name(const Frame& frame, size_t slot) {
 }
 
 void see(Divergence& d, double distance, const std::string& what) {
-  // Of those that are equally far the first is named.
+  // Of equally distant ones the first is named.
   if (!(distance > d.distance)) return;
   d.distance = distance;
   d.what = what;
@@ -33,14 +33,14 @@ bool is_live(const Frame& frame, size_t slot) {
   return slot < frame.body_slots() && !frame.body(slot).id.is_null();
 }
 
-/// Slots of bodies that are the same one in both; `nowhere` where only one has it.
+/// The slots of a body that exists in both frames; `nowhere` for the frame that lacks it.
 struct SlotPair {
   size_t a, b;
 };
 constexpr size_t nowhere = size_t(-1);
 
-/// In the order of A's slots, then what only B has. Most worlds have the same body in the same
-/// slot.
+/// In the order of A's slots, then those that only B has. In most worlds a body has the same slot
+/// in both.
 std::vector<SlotPair> pairs_of_bodies(const Frame& a, const Frame& b) {
   std::vector<SlotPair> pairs;
   std::map<std::string, size_t> others;  // of B, by name
@@ -87,12 +87,12 @@ void compare_bodies(const Frame& a, const Frame& b, Divergence& d) {
   }
 }
 
-/// Contacts of each pair of bodies, which are called as in A; those of a pair keep their order.
+/// Contacts by pair of bodies, under A's slots; contacts of a pair keep their order.
 using ContactsOfPairs = std::map<std::pair<uint32_t, uint32_t>, std::vector<ContactFrame>>;
 
 ContactsOfPairs contacts_of(const Frame& frame, const std::vector<SlotPair>& pairs, bool is_b) {
   std::map<uint32_t, uint32_t> called;
-  // What only B has follows everything of A.
+  // Bodies that only B has come after all of A's.
   for (const SlotPair& pair : pairs)
     if (is_b && pair.b != nowhere && pair.a != pair.b)
       called[uint32_t(pair.b)] =
@@ -118,7 +118,7 @@ ContactDifference only_in(const char* which, const Frame& frame, const ContactFr
   return {c.a, c.b, c.x_world, fmt::format("{}: only in {}", contact_names(frame, c), which)};
 }
 
-/// A contact of B under the ids that its bodies have in A; null where A has none of that name.
+/// A contact of B with the ids of A's bodies of the same names; null if there is none.
 ContactDifference as_in_a(ContactDifference found, const Frame& a,
                           const std::vector<SlotPair>& pairs) {
   for (BodyId* id : {&found.a, &found.b}) {
@@ -202,7 +202,8 @@ std::optional<ContactDifference> first_contact_difference(const Frame& a, const 
 Status run_lockstep(const LockstepSide& side_a, const LockstepSide& side_b, double seconds,
                     const std::function<bool(const Divergence&)>& each) {
   World &a = side_a.world, &b = side_b.world;
-  // Times are n/rate, whole numbers over one denominator: equal moments are found exactly.
+  // Times are n / rate with integers, so equal times are detected exactly over a common
+  // denominator.
   const TickRate ra = a.settings().tick, rb = b.settings().tick;
   const auto time_a = [&] { return int64_t(a.tick()) * ra.den * rb.num; };
   const auto time_b = [&] { return int64_t(b.tick()) * rb.den * ra.num; };

@@ -19,7 +19,7 @@ Action flip(bool& value, Action action) {
   return action;
 }
 
-/// In tenths, which one can go back.
+/// Zoom in steps of a tenth, so that steps back give exactly the values before.
 double zoom_step(double zoom, int steps) {
   return std::clamp(0.1 * (std::round(10 * zoom) + steps), least_zoom, greatest_zoom);
 }
@@ -129,7 +129,7 @@ void Application::perform(Action action) {
     case Action::fly_right:
     case Action::fly_up:
     case Action::fly_down:
-      return;  // in flight only, as long as they are held: PointerTool
+      return;  // only in flight mode and while held: PointerTool handles them
     case Action::close:
       return close_something();
     case Action::toggle_panels:
@@ -235,19 +235,20 @@ void Application::perform(Action action) {
     case Action::toggle_flight:
     case Action::toggle_bookmarks:
     case Action::toggle_ruler:
-      return;  // perform_in_time()
+      return;  // handled by perform_in_time()
     case Action::overlay_none: {
       const std::string kind = overlays.hierarchy_kind;
       const double length = overlays.vector_length;
       overlays = Overlays{};
-      overlays.hierarchy_kind = kind;  // was chosen, not switched on
+      overlays.hierarchy_kind = kind;  // a choice of kind is not a switch
       overlays.vector_length = length;
       return;
     }
   }
 }
 
-/// What is switched on and shows nothing says so: else the key seems dead.
+/// Reports an overlay that is switched on but has nothing to show; otherwise the key would seem to
+/// have no effect.
 void Application::flip_overlay(bool Overlays::*overlay, Action action) {
   bool& on = ui_.overlays.*overlay;
   on = !on;
@@ -259,7 +260,7 @@ void Application::flip_overlay(bool Overlays::*overlay, Action action) {
                 {fmt::format("It shows {}.", entry.doc)});
 }
 
-/// Whether an overlay adds anything to the picture of now.
+/// Whether an overlay adds anything to the present picture.
 bool Application::shows_anything(bool Overlays::*overlay) {
   const auto marks = [&](bool on) {
     ExtractOptions options;
@@ -273,7 +274,7 @@ bool Application::shows_anything(bool Overlays::*overlay) {
   return marks(true) > marks(false);
 }
 
-/// Off, level 0 (the root), 1, ... the leaves, and off again.
+/// Cycles through off, level 0 (the root), 1, ... the leaves, and off again.
 void Application::change_hierarchy_level(int by) {
   Overlays& overlays = ui_.overlays;
   const auto depth = hierarchy_depth(world_.frame(), extract_options(), canvas_.meshes());
@@ -287,8 +288,8 @@ void Application::change_hierarchy_level(int by) {
   if (next > 0) overlays.hierarchy_level = next - 1;
 }
 
-/// Shows and hides the panel; where the scene has put nothing under the microscope, the selected
-/// body and its neighbour come there, and go away with the panel.
+/// Shows or hides the panel. If the scene has put nothing under the microscope, the selected body
+/// and its neighbour are put there while the panel is shown.
 void Application::toggle_microscope() {
   bool& shown = ui_.shows(PanelId::microscope);
   if (instruments_.microscope.take_away()) {
@@ -307,7 +308,7 @@ void Application::toggle_microscope() {
   flip(shown, Action::toggle_microscope);
 }
 
-/// From then on the clock does not move it.
+/// From then on the step does not advance with time.
 void Application::go_to_microscope_step(int step) {
   const MicroscopeRecording* recording = canvas_.meshes().microscope().recording();
   if (!recording && instruments_.microscope_probe.waits())
@@ -394,8 +395,8 @@ void Application::apply(const UiRequest& request) {
   }
 }
 
-/// What was built and edited is of the scene as its file would say it, and stays; what was pulled,
-/// shot or moved by time itself does not.
+/// What was built and edited is part of the scene as its file would have it, and stays; pulls,
+/// shots and motion are undone.
 void Application::restart(bool as_scene) {
   const WorldSettings now = settings_.value(), of_scene = settings_.of_scene();
   if (as_scene && !follows_replay() && !changed_settings(now, of_scene).empty())
@@ -419,7 +420,7 @@ void Application::restart(bool as_scene) {
         {"Kept: " + names, shortcut_of(Action::restart_as_scene) + " goes back to the scene's"});
 }
 
-/// How the world that is shown was chosen.
+/// The choices with which the world shown was made.
 WorldChoice Application::own_choice() const {
   WorldChoice choice;
   choice.settings = settings_.value();
@@ -428,7 +429,7 @@ WorldChoice Application::own_choice() const {
   return choice;
 }
 
-/// Another choice for a world B that is there is a deed beside world A.
+/// Another choice for an existing world B is an undo step beside world A.
 void Application::compare(const WorldChoice& wanted) {
   if (const WorldComparison* now = second_.comparison())
     deeds_.begin_beside("Change what is chosen for B", in_gesture(),
@@ -441,8 +442,8 @@ void Application::compare(const WorldChoice& wanted) {
   begin_comparison(wanted);
 }
 
-/// Other numbers make another scene of it, which is opened beside; what is only settings goes on
-/// from this moment.
+/// Other numbers make a different scene, which is opened in the background; a change of settings
+/// only continues from this moment.
 void Application::begin_comparison(const WorldChoice& wanted) {
   WorldChoice of_file = own_choice();
   of_file.settings = settings_.of_scene();
@@ -459,7 +460,7 @@ void Application::begin_comparison(const WorldChoice& wanted) {
   show_second({wanted, options_.open(wish)});
 }
 
-/// Both begin at the start of the scene.
+/// Both worlds begin at the start of the scene.
 void Application::show_second(ComparisonDesk::Opened opened) {
   if (!opened.scene)
     return ui_.toast(ToastKind::error, "The scene cannot be opened with the numbers of B",
@@ -468,7 +469,7 @@ void Application::show_second(ComparisonDesk::Opened opened) {
   second_.begin(session(), std::move(opened.choice), scene_.trail, opened.scene->world.get());
 }
 
-/// Of one that is added late the past is computed.
+/// For a quantity added late the past is computed.
 void Application::add_curve(Quantity quantity) {
   Measures& measures = instruments_.measures;
   const size_t before = measures.series().size();
@@ -495,12 +496,12 @@ void Application::toggle_recording(bool video) {
 void Application::neighbour_scene(int direction) {
   const auto& scenes = options_.scenes;
   if (scenes.empty()) return;
-  // Pressed again while a scene is being opened it goes on from that one.
+  // Pressed again while a scene is being opened, it continues from that one.
   const std::string& from = opening_.asked().empty() ? scene_.name : opening_.asked();
   const auto it = std::find_if(scenes.begin(), scenes.end(),
                                [&](const SceneItem& s) { return s.name == from; });
   const auto count = std::ptrdiff_t(scenes.size());
-  // From a file that is not in the list both ways lead into it.
+  // For a file that is not in the list, both directions lead into the list.
   std::ptrdiff_t index = it == scenes.end() ? (direction > 0 ? -1 : 0) : it - scenes.begin();
   index = (index + direction + count) % count;
   open(scenes[size_t(index)].name);

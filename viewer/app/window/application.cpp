@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Those that one scene wanted go with it, those of the next come; what a person chose stays.
+/// Switches off the overlays of the last scene and on those of the next; what the user chose stays.
 void switch_overlays(const Overlays& last, const Overlays& next, Overlays& shown) {
   for (const OverlayEntry& entry : all_overlays()) {
     const auto on = entry.enabled;
@@ -54,7 +54,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
 }
 
 void Application::show(OpenedScene scene, bool goes_on) {
-  // The newest deeds, too, are kept before it goes.
+  // Includes the newest changes before the application ends.
   if (world_.any()) deeds_.finish(session(), options_.own_thread);
   if (recording()) toggle_recording();
   end_drag();
@@ -120,13 +120,14 @@ void Application::look_at_view() {
   if (const auto copies = tools_.duplicator.take(world_.frame()); !copies.empty()) {
     selection_.clear();
     for (const BodyId copy : copies) selection_.add(copy);
-    if (!ui_.building) open_inspector();  // it would cover places where one goes on building
+    // While building, the inspector would cover the place of the next click.
+    if (!ui_.building) open_inspector();
   }
   deeds_.see(world_.frame().tick, news != goes_on);
   marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
   instruments_.history.add(world_.frame());
   instruments_.measures.see(world_.frame(), world_.frame().tick < deeds_.newest_tick());
-  // Nobody has seen what lies between.
+  // The ticks between were not seen.
   if (news == ahead || (session().paused() && world_.frame().tick > seen_last + 1))
     instruments_.measures.want_past();
   if (news != goes_on) instruments_.past.note_jump();
@@ -134,10 +135,10 @@ void Application::look_at_view() {
   instruments_.ruler.update(world_.frame());
   if (news == ahead) second_.restart_trail();
   second_.update(world_.frame(), own_choice());
-  // Closed by its button: nobody looks any more.
+  // Closed by its button: the inspection ends.
   if (!ui_.shows(PanelId::contact)) instruments_.probe.clear();
   instruments_.probe.update(session(), world_.view().to);
-  // A recording asks for itself, at the ticks that it shows.
+  // A recording makes its own queries, at the ticks that it shows.
   const auto looked_at = instruments_.microscope.setup(ui_.microscope);
   instruments_.microscope_probe.update(session(), world_.view().to,
                                        recording() ? std::nullopt : looked_at);
@@ -272,7 +273,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
                                options_.own_thread);
     (void)tools_.mesh_palette.ready();
   }
-  // What a search can find is what is there when it begins.
+  // The names to search are those that exist when the search begins.
   const bool searched = !ui_.plot.search.empty(), begun = searched && !searched_;
   searched_ = searched;
   if (begun && scene_.quantities) scene_.quantities = scene_.quantities->with(world_.frame());
@@ -301,7 +302,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   return {};
 }
 
-/// Whoever changed theme or scale wants them tomorrow, too.
+/// Saves theme and scale when they have changed.
 void Application::keep_preferences() {
   const Preferences now{ui_.theme, ui_.zoom};
   if (now == options_.preferences) return;

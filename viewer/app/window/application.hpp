@@ -35,26 +35,27 @@ namespace tumble {
 
 struct ApplicationOptions {
   SceneOpener open;
-  std::vector<SceneItem> scenes;            ///< what the list offers
+  std::vector<SceneItem> scenes;            ///< scenes offered in the list
   std::filesystem::path shaders;            ///< resource_path("shaders")
-  std::filesystem::path capture_folder;     ///< screenshots and sequences go there
-  std::filesystem::path thumbnail_folder;   ///< pictures of scenes; empty: none
-  std::filesystem::path thumbnail_program;  ///< tumble itself, which makes them; empty: nobody
-  std::filesystem::path unsaved_folder;     ///< for work that was not saved; empty: none is kept
+  std::filesystem::path capture_folder;     ///< for screenshots and sequences
+  std::filesystem::path thumbnail_folder;   ///< thumbnails of scenes; empty: none
+  std::filesystem::path thumbnail_program;  ///< the tumble program, which renders thumbnails;
+                                            ///< empty: they are not made
+  std::filesystem::path unsaved_folder;     ///< for unsaved work; empty: it is not kept
   int threads = 0;                          ///< of the simulation; 0: one per core
-  std::string version;                      ///< of the program, for frames.json
-  /// false: frame() opens scenes and steps the world itself, by dt: same input, same bits.
+  std::string version;                      ///< of the program, written into frames.json
+  /// If false, frame() opens scenes and steps the world itself, by dt, so that equal input gives
+  /// equal bits.
   bool own_thread = true;
-  bool hints = true;                       ///< greet with a line of help
-  Preferences preferences;                 ///< as the user's files have them
-  std::filesystem::path preferences_file;  ///< for changes of them; empty: not kept
-  std::vector<std::string> faults;         ///< of these files, to be said once
+  bool hints = true;                       ///< show a line of help at the start
+  Preferences preferences;                 ///< as read from the user's files
+  std::filesystem::path preferences_file;  ///< where changes of them are saved; empty: nowhere
+  std::vector<std::string> faults;         ///< faults in these files, reported once
 };
 
-/// The program behind the window, without the window: passes input to its parts, actions and
-/// requests to the world, and draws. Drives a real window, and tests on EGL, OSMesa and the null
-/// device in the same way. Everything a person does to the world goes through World commands on the
-/// session.
+/// The interactive program without its window: passes input to its parts, carries out actions and
+/// requests, and draws. A real window and tests on EGL, OSMesa and the null device drive it in the
+/// same way. All changes to the world go through World commands on the session.
 class Application {
  public:
   using Picture = PictureLayout::Size;
@@ -64,29 +65,30 @@ class Application {
                                                      OpenedScene scene);
   ~Application();
 
-  /// One picture: `events` (positions in UI units), `dt` seconds after the last.
+  /// Processes input and draws one picture: `events` (positions in UI units), `dt` seconds after
+  /// the last.
   Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
-  /// The last picture onto the device's window.
+  /// Shows the last picture in the device's window.
   void present() { canvas_.renderer().present(); }
-  /// What the graphics card holds may be lost.
+  /// To be called when the contents of the graphics memory may be lost.
   void draw_anew() { canvas_.renderer().draw_anew(); }
   Status read_back(Image& image) { return canvas_.renderer().read_back(image); }
 
   bool quit_requested() const { return quit_; }
-  /// Somebody wants to leave: asks about unsaved work first, once.
+  /// Requests to quit; if there is unsaved work, a question is asked first, but only once.
   void ask_to_quit();
-  /// Brings what is under way to an end that leaves whole files: a recording gets its list.
+  /// Completes what is under way so that all files are whole, e.g. a recording gets its list.
   void finish();
-  /// A scene is being opened beside; destruction waits for it.
+  /// Whether a scene is being opened on another thread; destruction waits for it.
   bool opening() const { return opening_.busy(); }
   bool full_screen() const { return full_screen_; }
   PointerLook pointer_look() const { return pointer_.look(); }
-  /// What a person makes of the monitor's scale.
+  /// The user's scale of panels and text, as a factor on the monitor's scale.
   double zoom() const { return ui_.zoom; }
   const std::string& title() const { return scene_.title.empty() ? scene_.name : scene_.title; }
 
-  /// Opens a scene as if it had been chosen, beside the drawing; the old one is shown until the new
-  /// one is ready, and stays with a list of the faults when it cannot be opened.
+  /// Opens a scene in the background, as if chosen in the list. The old one is shown until the new
+  /// one is ready; if it cannot be opened, the old one stays and the faults are listed.
   void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
   void open(SceneWish wish);
   void perform(Action action);
@@ -104,7 +106,7 @@ class Application {
   const std::string& scene_name() const { return scene_.name; }
   BodyId selected() const { return selection_.main(); }
   const Selection& selection() const { return selection_; }
-  /// The contact that is looked at; null when there is none, or nothing is known of it yet.
+  /// The contact being inspected; null if there is none or nothing is known of it yet.
   const ContactView* contact() const { return instruments_.probe.view(); }
   bool dragging() const { return pointer_.drag().active(); }
   bool recording() const { return world_.recorder().active(); }
@@ -115,11 +117,11 @@ class Application {
   const FolderView* browsed() const { return browsed_ ? &*browsed_ : nullptr; }
   const SceneMarks& marks() const { return marks_.marks(); }
   const Ruler& ruler() const { return instruments_.ruler; }
-  /// Null: nothing is compared.
+  /// Null: there is no comparison.
   const WorldComparison* comparison() const { return second_.comparison(); }
   WorldSettings settings() const { return settings_.value(); }
   void ask(const UiRequest& request) { apply(request); }
-  /// Nothing: the scene teaches nothing.
+  /// Empty: the scene has no lesson.
   std::optional<LessonView> lesson() const { return lesson_view(); }
 
  private:
@@ -128,7 +130,7 @@ class Application {
   void open_for(SceneOpening::Cause cause, SceneWish wish);
   std::vector<ChoiceHistory::Step> deeds_as_choices(const SceneWish& start, std::string text);
   void finish_opening(SceneOpening::Opened done);
-  /// What a person looks at, in the scene that is opened anew.
+  /// Selection and focus by name, to be found again in a scene that is opened anew.
   struct LookedAt {
     std::vector<BodyId> selected;
     std::vector<Quantity> curves;
@@ -264,11 +266,11 @@ class Application {
   ApplicationOptions options_;
   Canvas canvas_;
   ShownWorld world_;
-  OpenedScene scene_;  ///< without its world
+  OpenedScene scene_;  ///< without its world, which the session has
   SceneOpening opening_;
   SceneFileDesk scene_file_;
   ShownSettings settings_;
-  WorldSettings settings_before_;  ///< the newest change of them
+  WorldSettings settings_before_;  ///< settings before the newest change of them
   ReplayDesk replay_;
   ComparisonDesk second_;
 
@@ -277,26 +279,28 @@ class Application {
   EditingTools tools_;
   Instruments instruments_;
   MarksDesk marks_;
-  /// Those that the lesson's page, and those that building, has switched on.
+  /// Overlays switched on by the lesson's page, and those switched on for building.
   LentOverlays lesson_overlays_, building_overlays_;
 
   PictureLayout layout_;
   SceneCamera camera_;
-  bool own_flight_ = false;  ///< the camera is on that of a person, not on the scene's
+  bool own_flight_ = false;  ///< the camera follows the user's flight, not the scene's path
   Screenshots screenshots_;
-  bool plot_wanted_ = false;              ///< as a picture
-  std::set<std::string> broken_shaders_;  ///< those that were told of
+  bool plot_wanted_ = false;              ///< the plot is to be saved as an image
+  std::set<std::string> broken_shaders_;  ///< pipelines whose link failure was reported
 
   UiHost host_;
   UiState ui_;
   QuestionDesk question_;
   Pointer pointer_;
   Hand hand_;
-  std::vector<InputEvent> early_text_;  ///< typed before the search has the keyboard
-  bool searched_ = false;               ///< for something to be plotted
+  std::vector<InputEvent> early_text_;  ///< typed before the search field had the keyboard
+  bool searched_ = false;               ///< a search for a quantity was active
   Thumbnails thumbnails_;
-  std::optional<std::pair<std::string, std::string>> renaming_;  ///< a body, while that is opened
-  std::optional<FolderView> browsed_;  ///< none: the list of scenes is shown
+  /// A body being renamed (old and new name), while the scene is opened anew.
+  std::optional<std::pair<std::string, std::string>> renaming_;
+  /// Folder of the file browser; none: the list of scenes is shown.
+  std::optional<FolderView> browsed_;
   bool quit_ = false, full_screen_ = false;
 };
 

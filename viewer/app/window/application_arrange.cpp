@@ -1,4 +1,4 @@
-// What is selected, and where handles and the clipboard put it.
+// Selection, handles and clipboard.
 #include "engine/math/rotation.hpp"
 #include "viewer/app/window/application.hpp"
 
@@ -28,7 +28,7 @@ Handles::View Application::handles_view() const {
   return {camera_.seen(), layout_.area.width(), layout_.area.height()};
 }
 
-/// Where scripts take hold of a handle: "x", "across_y", "middle".
+/// Where scripts grab a handle: "x", "across_y", "middle".
 std::optional<Vec3> Application::handle_grip(std::string_view name) const {
   using enum Handles::Part;
   constexpr std::pair<std::string_view, Handles::Part> parts[] = {{"x", x},
@@ -45,7 +45,7 @@ std::optional<Vec3> Application::handle_grip(std::string_view name) const {
   return std::nullopt;
 }
 
-/// A second press of the same key puts them away.
+/// A second press of the same key hides them.
 void Application::show_handles(HandleKind kind) {
   ui_.handles.kind = ui_.handles.kind == kind ? HandleKind::none : kind;
   if (ui_.handles.kind == HandleKind::none) return;
@@ -61,7 +61,7 @@ ArrangeGestures Application::gestures() const {
             return frame && Handles::hit(ui_.handles.kind, *frame, handles_view(), x, y) !=
                                 Handles::Part::none;
           },
-          // What stands fixed is ground to most: it moves once it has been selected.
+          // Fixed bodies are mostly used as ground: they can be dragged only if they are selected.
           [this](const Pick& pick) {
             return pick.type == BodyType::dynamic || selection_.contains(pick.body);
           }};
@@ -88,7 +88,8 @@ void Application::arrange_to(double x, double y) {
   tools_.arranger.apply(session(), *way, edits, tools_.refusal);
 }
 
-/// In a world that runs gravity would take it from the hand between two moves of the pointer.
+/// While the simulation runs, gravity would move the dragged bodies between two moves of the
+/// pointer.
 void Application::hold_arranged() {
   if (session().paused() || !tools_.arranger.last() || deeds_.edits().empty()) return;
   tools_.arranger.apply(session(), *tools_.arranger.last(), deeds_.edits().newest(),
@@ -113,7 +114,7 @@ void Application::copy_selected() {
             fmt::format("Copied {}: {} pastes", selected_names(), shortcut_of(Action::paste)));
 }
 
-/// Onto what is under the pointer; where that is a panel, or nothing, before the camera.
+/// Pastes onto what is under the pointer; if that is a panel or nothing, in front of the camera.
 void Application::paste() {
   if (tools_.clipboard.empty())
     return ui_.toast(ToastKind::info, fmt::format("Nothing was copied: {} copies what is selected",
@@ -147,7 +148,7 @@ void Application::select_all() {
       selection_.add(frame.body(slot).id);
 }
 
-/// What moves and has its centre in the box joins the selection.
+/// Adds to the selection all movable bodies whose centres are in the box.
 void Application::select_box(const PointerBox& box) {
   tools_.box = box;
   if (!box.done) return;

@@ -9,8 +9,8 @@
 
 namespace tumble {
 
-/// The contact that is looked at, and what the mouse holds: the spring itself is drawn with the
-/// scene's forces, its handle here.
+/// Draws the contact being inspected, and the handle of the mouse spring (the spring itself is
+/// drawn with the scene's forces).
 void Application::draw_marks() {
   RenderScene& picture = canvas_.picture();
   if (const ContactView* contact = instruments_.probe.view(); contact && contact->certificate) {
@@ -62,7 +62,7 @@ bool Application::stands_beside() const {
   return ui_.compared_as == ComparedAs::beside && second_.comparison();
 }
 
-/// What world A and B are called, at the head of their pictures.
+/// Titles the pictures of world A and world B.
 void Application::name_pictures(RenderScene& a, RenderScene& b) const {
   const auto& [of_a, of_b] = names_by(second_.comparison()->differences);
   constexpr float below_bar = 60, at_top = 14;  // [UI units]
@@ -77,13 +77,13 @@ void Application::name_pictures(RenderScene& a, RenderScene& b) const {
   }
 }
 
-/// Both pictures are seen by the camera that they have there.
+/// Sets the camera of the picture or pictures.
 void Application::look_from(const ViewArea& area) {
   canvas_.picture().camera = area.seen_by(camera_.camera());
   if (stands_beside()) second_.look_from(canvas_.picture().camera);
 }
 
-/// The picture of A, or the pictures of both, with these panels over them.
+/// Draws the picture of A, or the pictures of both, with panels over them.
 Status Application::draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height) {
   if (!area.places() || !stands_beside()) return canvas_.draw(panels, width, height);
   SideBySide places = *area.places();
@@ -92,7 +92,7 @@ Status Application::draw_pictures(UiDrawList& panels, const ViewArea& area, int 
 }
 
 Status Application::draw_sequence(Recorder& recorder) {
-  // A sequence shows the scene, not the panels, and keeps its size when the window changes.
+  // A recorded sequence shows the scene without panels, and keeps its size when the window changes.
   UiDrawList no_panels;
   canvas_.picture().legend_area.reset();
   PictureLayout layout;
@@ -111,7 +111,7 @@ Status Application::draw() {
     second_.draw_ghost(world_.view(), extract_options(), canvas_.meshes(), canvas_.picture());
   draw_marks();
   RenderScene& picture = canvas_.picture();
-  // Neither are drafts where the same input must give the same bits.
+  // Screenshots and recordings are not drafts, nor are pictures that must be reproducible.
   const bool best = screenshots_.wanted() || recording() || !options_.own_thread;
   picture.quality = canvas_.quality(ui_.quality, best);
   picture.resolution = canvas_.resolution(ui_.quality, best);
@@ -124,7 +124,7 @@ Status Application::draw() {
       (void)recorder.stop(session());
       ui_.toast(ToastKind::error, "The sequence has ended", {s.error().text()});
     }
-  // The panel says what the plate says.
+  // The panel has the same text as the plate.
   if (ui_.shows(PanelId::microscope) && !ui_.hidden && !screenshots_.wants_plain())
     picture.plate.reset();
   if (picture.plate && !layout_.panels.draws.empty() && !ui_.hidden)
@@ -150,9 +150,9 @@ void Application::next_comparison_view() {
   ui_.compared_as = ui_.compared_as == ghost ? beside : ui_.compared_as == beside ? hidden : ghost;
 }
 
-/// Shaders that are first needed, and found not to link, in the middle of somebody's work are no
-/// reason to close the window over it: the picture goes on without what they draw. At the first
-/// picture, and where nobody looks, they are an error.
+/// A shader that fails to link when it is first used, in the middle of a session, must not close
+/// the window: the picture is drawn without it. It is an error in the first picture, and where
+/// there is no user.
 Status Application::without_broken_shaders(Status drawn) {
   if (drawn || drawn.error().code != ErrorCode::parse) return drawn;
   if (!options_.own_thread || canvas_.pace().pictures() <= 1) return drawn;
@@ -184,8 +184,8 @@ void Application::write_measures() {
   ui_.toast(ToastKind::info, "Written to " + file.string());
 }
 
-/// The screenshot without panels is a picture of its own, drawn before the one that is shown. Two
-/// pictures beside each other take the room of the panels, too.
+/// A screenshot without panels is a picture of its own, drawn before the one shown. Two pictures
+/// beside each other then also use the room of the panels.
 void Application::save_plain_screenshot() {
   UiDrawList panels;
   std::swap(panels, layout_.panels);

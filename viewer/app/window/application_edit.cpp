@@ -1,4 +1,4 @@
-// What a person changes in the world, and takes back.
+// The user's changes in the world, and undo.
 #include "engine/world/world.hpp"
 #include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// How far a copy stands from its original, over the width of that.
+/// Distance of a copy from its original, over the width of the original [-].
 constexpr double copy_distance = 1.1;
 
 }  // namespace
@@ -23,8 +23,8 @@ std::string Application::name_of(BodyId id) const {
   return name.empty() ? fmt::format("body {}", id.index) : name;
 }
 
-/// Before everything that a person does to the world. What a widget asks for in every picture while
-/// it is held, or while its text is being typed, is one deed.
+/// To be called before every change that the user makes. What a widget requests in every picture
+/// while it is held, or while its text is being typed, is one undo step.
 DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
   deeds_.unsaved().note();
   deeds_.choices().forget_taken_back();
@@ -62,13 +62,13 @@ void Application::do_again() {
   ui_.toast(ToastKind::info, "Done again: " + back->what);
 }
 
-/// The selected bodies, as deeds name them.
+/// Names of the selected bodies for the descriptions of undo steps.
 std::string Application::selected_names() const {
   if (selection_.size() == 1) return name_of(selection_.main());
   return fmt::format("{} and {} more", name_of(selection_.main()), selection_.size() - 1);
 }
 
-/// A deed that takes away something that others may need.
+/// Begins an undo step that removes something on which other parts may depend.
 Removal Application::begin_removal(std::string what) {
   const DeedEdits edits = begin_edit(std::move(what));
   return Removal(scene_.file, deeds_.edits().file_edits(), edits, tools_.parts, tools_.refusal);
@@ -97,7 +97,7 @@ void Application::duplicate_selected() {
   }
   if (bounds.empty())
     return ui_.toast(ToastKind::info, "What has no end is not copied: " + selected_names());
-  // To the right of the picture, along an axis of the world.
+  // To the right in the picture, along a world axis.
   const Camera& camera = camera_.camera();
   const Vec3 right = (camera.target - camera.eye).cross(camera.up);
   const int axis = std::abs(right.x()) >= std::abs(right.z()) ? 0 : 2;
@@ -116,7 +116,7 @@ void Application::change_settings(const WorldSettings& wanted) {
   if (!goes_on) settings_before_ = settings_.value();
   const DeedEdits edits = begin_edit(what, true);
   if (goes_on && changed_settings(settings_before_, wanted).empty()) {
-    // Esc while a number is typed, or a slider that was pulled back.
+    // A typed number was cancelled by Esc, or a slider set back.
     deeds_.drop_newest();
   }
   session().post([edits, wanted](World& world) {
@@ -126,7 +126,7 @@ void Application::change_settings(const WorldSettings& wanted) {
   settings_.change(session(), wanted);
 }
 
-/// What a tool waits for is said as long as it waits, and in which way of moving one is.
+/// Shows a hint for the active tool or way of moving as long as it is active.
 void Application::keep_hints() {
   const auto keep = [&](bool holds, const std::string& words,
                         const std::vector<std::string>& lines) {
@@ -147,7 +147,7 @@ void Application::keep_hints() {
                     shortcut_of(Action::toggle_free_flight))});
 }
 
-/// A click on the picture while something is being built.
+/// Handles a click on the picture in building mode.
 void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
   const Camera& camera = camera_.camera();
   const Ray ray = pixel_ray(camera_.seen(), x, y, layout_.area.width(), layout_.area.height());
@@ -185,7 +185,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
         }));
     tools_.parts.name_springs(session(), edits);
     tools_.parts.note();
-    // What was joined is seen, and where.
+    // Shows joints and springs, so that the new one is visible.
     if (std::holds_alternative<NewJoint>(ui_.build.what) ||
         std::holds_alternative<NewSpring>(ui_.build.what))
       building_overlays_.switch_on(&Overlays::joints, ui_.overlays);
@@ -217,7 +217,7 @@ void Application::edit_body(const EditBody& edit) {
   });
 }
 
-/// What a mesh collides as from now on, once it has been made.
+/// Applies a new collision representation of a mesh once it has been computed.
 void Application::take_mesh_modes() {
   auto made = tools_.mesh_modes.take();
   if (!made) return;
@@ -226,7 +226,7 @@ void Application::take_mesh_modes() {
   edit_body({made->wish.id, made->wish.what,
              [group = made->wish.group, mesh = made->wish.source->mesh,
               parts = *made->parts](BodyDef& def) {
-               // Only where the body still has the mesh that the shapes were made of.
+               // Only if the body still has the mesh from which the shapes were computed.
                const auto groups = shape_groups(def);
                if (group >= groups.size()) return;
                const auto source = source_of(def, groups[group]);

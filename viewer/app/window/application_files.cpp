@@ -1,4 +1,4 @@
-// The scene's file: opened, changed by others, saved, and what was not saved.
+// The scene's file: opened, changed by others, saved, and unsaved work.
 #include "engine/scene/saving/dependents.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-/// From the folder of the scene, or the working folder, on.
+/// Opens the file browser; relative paths start at the scene's folder, or else the working folder.
 void Application::browse(const std::string& folder) {
   browsed_.reset();
   if (!folder.empty()) browsed_ = look_through(folder);
@@ -43,7 +43,7 @@ void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
   finish_opening({std::move(wish), std::move(scene), std::move(cause)});
 }
 
-/// By their names, for the world is another one.
+/// Finds things by name, since the world is another one.
 Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const {
   LookedAt out;
   const World& world = *scene.world;
@@ -66,7 +66,7 @@ Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const 
   return out;
 }
 
-/// What can be taken back in the scene that has been opened.
+/// Keeps the undo history of choices for the scene that was opened.
 void Application::keep_choices(SceneOpening::Cause& cause) {
   const bool lost = cause.reloads && (!deeds_.choices().empty() || cause.deeds_lost);
   auto& choice = cause.choice;
@@ -98,13 +98,12 @@ void Application::finish_opening(SceneOpening::Opened done) {
                      lines_of(opened.error().text()));
   }
   ui_.toasts.clear();
-  // The same scene with other numbers or another text is looked at from where one stands, and
-  // waits if it did.
+  // The same scene with other numbers or another text keeps camera and pause.
   const bool same = asked.scene == scene_.wish.scene &&
                     (choice || !asked.overrides.empty() || asked.text || cause.reloads);
   const bool paused = session().paused();
   if (opened->file.unnamed) {
-    // Only with its newest deeds is it known whether the scene that is shown needs its name.
+    // The newest changes decide whether the name of the scene shown is still in use.
     deeds_.finish(session(), options_.own_thread);
     opened->file.path = !asked.called.empty()         ? asked.called
                         : same && scene_.file.unnamed ? scene_.file.path
@@ -125,7 +124,7 @@ void Application::finish_opening(SceneOpening::Opened done) {
   session().set_paused(paused);
 }
 
-/// An empty floor has nothing to show: a new scene stands still until it is to run.
+/// A new scene has nothing to simulate: it stays paused.
 void Application::begin_building() {
   session().set_paused(true);
   if (options_.hints)
@@ -134,8 +133,8 @@ void Application::begin_building() {
                            shortcut_of(Action::toggle_build), shortcut_of(Action::toggle_pause))});
 }
 
-/// The scene was written by somebody else: shown anew from where one stands, at the moment where
-/// one was. What was changed here and not saved is done to the new text as well.
+/// Another program has written the scene's file: it is opened anew with the same camera and moment,
+/// and with the unsaved changes applied to the new text.
 void Application::look_at_files(double dt) {
   // Closed by its button, or by a click beside it.
   if (!ui_.shows(PanelId::question)) question_.decline(ui_);
@@ -167,7 +166,7 @@ void Application::look_at_files(double dt) {
   open_for(std::move(cause), std::move(wish));
 }
 
-/// The scene with work that was kept of it, which can be taken back as a whole.
+/// Opens the scene with work kept earlier, which can be undone as a whole.
 void Application::take_up(const UnsavedWork::Kept& kept, std::filesystem::path called) {
   deeds_.unsaved().take_over(kept);
   SceneWish wish = scene_.wish;
@@ -180,7 +179,7 @@ void Application::take_up(const UnsavedWork::Kept& kept, std::filesystem::path c
   open_for(std::move(cause), std::move(wish));
 }
 
-/// New scenes that nobody has saved: each can be gone on with, and none is lost by another.
+/// Offers new scenes that were never saved: each can be continued, and none replaces another.
 void Application::offer_unnamed_work() {
   const auto kept = deeds_.unsaved().kept_unnamed();
   if (kept.empty()) return;
@@ -200,7 +199,7 @@ void Application::offer_unnamed_work() {
   question_.ask(std::move(open), ui_);
 }
 
-/// What an earlier run has left of this scene.
+/// Offers the unsaved work that an earlier run has left for this scene.
 void Application::offer_kept_work() {
   if (scene_.wish.text) return;
   if (scene_.file.unnamed) return offer_unnamed_work();
@@ -217,7 +216,7 @@ void Application::offer_kept_work() {
 }
 
 void Application::ask_to_quit() {
-  // What was done just now counts, too.
+  // Includes the newest change.
   deeds_.finish(session(), options_.own_thread);
   if (!deeds_.unsaved().any() || question_.quits()) {
     quit_ = true;
@@ -237,9 +236,9 @@ void Application::change_parameter(const ChangeParameter& change) {
   choose(number, "Change " + change.name, world_.frame().tick);
 }
 
-/// The moments that deeds go back to are of this world. Where another comes in its place, the deeds
-/// become choices of the scene's text: taken back one by one each opens the scene without it.
-/// `start`: the scene without them, of this text.
+/// The moments stored for undo belong to this world. When another world takes its place, each
+/// change becomes a change of the scene's text, which is undone by opening the scene without it.
+/// `start`: the scene without the changes, with this text.
 std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& start,
                                                                std::string text) {
   const auto deeds = deeds_.edits().deeds();
@@ -251,7 +250,7 @@ std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& 
   std::vector<ChoiceHistory::Step> out;
   SceneWish wish = start;
   for (size_t i = 0; i < texts.size(); ++i) {
-    if (texts[i] == text) continue;  // nothing that a file can say
+    if (texts[i] == text) continue;  // a change that a file cannot represent
     SceneWish before = wish;
     wish.text = text = texts[i];
     out.push_back({ChoiceHistory::Way::anew, deeds[i].first, std::move(before), wish, ticks[i],
@@ -260,16 +259,16 @@ std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& 
   return out;
 }
 
-/// How the scene is opened to be what it is now, with what was changed here.
+/// The wish that opens the scene as it is now, with its changes.
 SceneWish Application::wish_of_now() {
-  // What was done just now counts, too.
+  // Includes the newest change.
   deeds_.finish(session(), options_.own_thread);
   SceneWish wish = scene_.wish;
   if (deeds_.unsaved().any()) wish.text = deeds_.unsaved().text();
   return wish;
 }
 
-/// The scene anew with other numbers, and with what was changed here, at the moment `tick`.
+/// Opens the scene anew with other numbers and with its changes, at the tick `tick`.
 void Application::choose(const std::vector<std::string>& overrides, std::string what,
                          uint64_t tick) {
   SceneWish after = wish_of_now();
@@ -291,7 +290,7 @@ void Application::choose(SceneWish after, std::string what, uint64_t tick) {
   open_for(std::move(cause), std::move(after));
 }
 
-/// Everything in the scene that names it does so anew: it is opened once more, at this moment.
+/// Renames a body and every reference to it: the scene is opened anew at this moment.
 void Application::rename_body(const std::string& name, const std::string& to) {
   SceneWish after = wish_of_now();
   auto text = renamed(after.text.value_or(scene_.file.text), "bodies", name, to);
@@ -307,7 +306,7 @@ void Application::rename_body(const std::string& name, const std::string& to) {
   choose(std::move(after), fmt::format("Rename {} to {}", name, to), world_.frame().tick);
 }
 
-/// A choice taken back, or made again; false when there is none.
+/// Undoes or redoes a choice; false if there is none.
 bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
   if (!choice) return false;
   SceneOpening::Cause cause;
@@ -319,7 +318,7 @@ bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
   return true;
 }
 
-/// Shows what saving would write; asked for once more it writes that.
+/// Shows a preview of saving; a second request saves.
 void Application::save_scene() {
   if (ui_.shows(PanelId::save) && scene_file_.preview()) return write_scene(ui_.save_file);
   ui_.hidden = false;
@@ -332,7 +331,7 @@ void Application::save_scene() {
 
 void Application::write_scene(const std::string& file) {
   if (const Status done = scene_file_.write(file); !done) {
-    // The panel stays with what was typed: another name may do.
+    // The panel stays open with the typed name, which can be corrected.
     ui_.shows(PanelId::save) = true;
     ui_.save_file = file;
     ui_.save_fault = done.error().text();
@@ -341,14 +340,14 @@ void Application::write_scene(const std::string& file) {
   ui_.shows(PanelId::save) = false;
   ui_.save_fault.clear();
   scene_.file = scene_file_.file();
-  deeds_.choices().forget();  // the scene without them is no file any more
+  deeds_.choices().forget();  // the scene without these choices is not a file any more
   marks_.go_on_as(marked_scene());
-  // From now on the scene is that file: opened anew it is what was saved.
+  // The scene's file is now that one: opening it anew gives what was saved.
   std::error_code none;
   scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
   scene_.wish.text.reset();
   deeds_.unsaved().saved(scene_.file);
-  // What could not be opened of it has been replaced.
+  // Messages about a version that could not be opened are outdated.
   std::erase_if(ui_.toasts, [](const Toast& t) { return t.title.ends_with("cannot be opened"); });
   ui_.toast(ToastKind::info, "Saved to " + file);
 }

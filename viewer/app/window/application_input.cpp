@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// The search field takes the keyboard some pictures after it was opened: what is typed until then
-/// waits for it, and is neither lost nor taken for commands.
+/// The search field gets the keyboard some pictures after it was opened: text typed until then is
+/// kept for it, so that it is neither lost nor taken for commands.
 std::vector<InputEvent> Application::in_time_for_search(std::span<const InputEvent> events) {
   const bool early = ui_.shows(PanelId::scenes) && !host_.wants_keys();
   std::vector<InputEvent> out;
@@ -30,7 +30,7 @@ void Application::route(std::span<const InputEvent> events, double dt) {
       if (key->down && route_key(*key)) continue;
       for_scene.push_back(event);
     } else if (const auto* press = std::get_if<PointerPressed>(&event)) {
-      // A gesture that began on the scene ends there, wherever the pointer is by now.
+      // A gesture that began in the scene also ends there, wherever the pointer is by then.
       if (!press->down || !host_.wants_pointer())
         for_scene.push_back(event);
       else
@@ -55,14 +55,14 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   pointer_.choose_look(host_, world_.view(), camera_.seen());
 }
 
-/// Something stands over the world and waits for an answer.
+/// Whether a modal dialog is open over the scene.
 bool Application::dialog_open() const {
   return !ui_.hidden &&
          (ui_.shows(PanelId::question) || ui_.shows(PanelId::save) || ui_.shows(PanelId::help));
 }
 
-/// What does something to the world behind waits until the dialog is closed: there are only the
-/// dialog's own keys, those that put another one in its place, and those of the window itself.
+/// While a dialog is open, keys do not act on the world: only the dialog's own keys, those that
+/// open another dialog, and those of the window itself work.
 void Application::press_in_dialog(const KeyPressed& key) {
   const bool saves = ui_.shows(PanelId::save) && !ui_.shows(PanelId::question);
   if (saves && key.key == Key::enter && scene_file_.preview()) return write_scene(ui_.save_file);
@@ -88,18 +88,19 @@ void Application::press_in_dialog(const KeyPressed& key) {
   }
 }
 
-/// True when the key was a command.
+/// True if the key was a command.
 bool Application::route_key(const KeyPressed& key) {
   if (key.key == Key::escape) {
     close_something();
     return true;
   }
-  if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field has it
+  if (host_.wants_keys() || ui_.shows(PanelId::scenes)) return true;  // a text field uses it
   if (dialog_open()) {
     press_in_dialog(key);
     return true;
   }
-  // In flight its keys are no commands; nor are the letters beside them, while a button is held.
+  // In flight mode, the keys of flight are not commands; nor are the letters beside them while a
+  // mouse button is held.
   const uint8_t mods = pointer_.held().mods();
   if (pointer_.tool().flying() && (mods & ~Mods::shift) == 0) {
     const bool letter = key.key >= Key::a && key.key <= letter_key('Z') && mods == 0;
@@ -110,8 +111,8 @@ bool Application::route_key(const KeyPressed& key) {
   return action.has_value();
 }
 
-/// What the pointer is about: it lets go of a body that it pulls, and puts back one that it moves.
-/// False when it is about nothing.
+/// Cancels the gesture under way: a pulled body is released, a moved one is put back. False if
+/// there is none.
 bool Application::give_up_gesture() {
   if (pointer_.drag().active()) {
     end_drag();
@@ -168,13 +169,14 @@ void Application::apply(const PointerEffects& effects) {
   if (works && pointer_.is_beside())
     return ui_.toast(ToastKind::info, "World B is only looked at: click in the left picture");
   if (ui_.building && effects.selected && !effects.drag_began) {
-    // Nobody wants two in one place. The second place of a joint may be that of the first.
+    // A double click would build two things in one place. Only the second end of a joint may be at
+    // the place of its first.
     if (effects.twice && !tools_.builder.half_way()) return;
     build_at(effects.press_x, effects.press_y, *effects.selected);
     return;
   }
   if (ruling && effects.selected && !effects.drag_began) {
-    // Nobody measures from a place to itself: a double click means it once.
+    // A double click counts once, since nobody measures a distance of zero.
     if (!effects.twice) rule_at(*effects.selected);
     return;
   }
@@ -211,12 +213,13 @@ void Application::apply(const PointerEffects& effects) {
   if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
 }
 
-/// The panel opens for what a person selects. In a narrow window it would cover what was clicked.
+/// Opens the inspector for a selection, unless it would cover, in a narrow window, what was
+/// clicked.
 void Application::open_inspector() {
   if (has_two_columns(double(layout_.panels.width))) ui_.shows(PanelId::inspector) = true;
 }
 
-/// What was put down last is selected: now its panel is in nobody's way.
+/// The thing built last is selected, and its panel is shown now that it covers no place to click.
 void Application::end_building() {
   ui_.building = false;
   if (!selection_.empty()) open_inspector();
@@ -236,7 +239,7 @@ void Application::end_drag() {
 }
 
 void Application::shoot(const Ray& ray) {
-  // The ball suits the scene: a twentieth of what the camera sees across.
+  // Radius: a twentieth of the width that the camera sees.
   const double distance = (camera_.camera().eye - camera_.camera().target).norm();
   const double radius = std::clamp(0.025 * distance, 0.02, 1.0);
   BodyDef ball;

@@ -1,4 +1,4 @@
-// The lesson of a scene: pages that set camera, overlays and curves, answers, choices.
+// The lesson of a scene: pages that set camera, overlays and curves; answers; choices.
 #include "viewer/app/scenes/scene_lesson.hpp"
 #include "viewer/app/window/application.hpp"
 
@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Begins with the page that is shown: the first one, or where the same scene was left.
+/// Shows the first page, or the page where the same scene was left.
 void Application::begin_lesson() {
   ui_.shows(PanelId::lesson) = scene_.lesson != nullptr;
   lesson_overlays_.end(scene_.overlays, ui_.overlays);
@@ -23,7 +23,7 @@ void Application::show_lesson_page(bool turned) {
   const SceneLesson::Wants& wants = scene_.lesson->wants();
   const LessonView lesson = scene_.lesson->view();
   const auto& question = lesson.steps[lesson.step].question;
-  ui_.lesson_typed = question ? question->said : "";  // stands beside its verdict
+  ui_.lesson_typed = question ? question->said : "";  // shown beside its verdict
   ui_.lesson_hint = false;
   ui_.content_height[size_t(PanelId::lesson)] = 0;
   lesson_overlays_.turn_to(wants.overlays, ui_.overlays);
@@ -31,7 +31,8 @@ void Application::show_lesson_page(bool turned) {
     own_flight_ = false;
     camera_.look_from(*wants.view, world_.view());
   }
-  // Opened anew a page has the curves of the pages before it again; turned to, it leaves what is.
+  // A scene opened anew has the curves of its page and the pages before; turning to a page without
+  // curves keeps the present ones.
   if (!wants.plot.empty() && (wants.plots || !turned)) {
     instruments_.measures.clear();
     for (const Quantity& q : wants.plot) instruments_.measures.add(q, world_.frame());
@@ -46,13 +47,13 @@ void Application::answer_lesson(const std::string& said) {
   if (scene_.lesson) scene_.lesson->answer(said, world_.frame());
 }
 
-/// The scene anew with what this page chooses, from where one looks.
+/// Opens the scene anew with the choices of this page, keeping the camera.
 void Application::take_lesson_choice() {
   if (!scene_.lesson) return;
   choose(scene_.lesson->wants().choose, "The lesson's choice", 0);
 }
 
-/// Whether what the page chooses is what the world has.
+/// Whether the world has the settings that the page chooses.
 bool Application::lesson_choice_is_taken(const std::vector<std::string>& choose) const {
   for (const std::string& choice : choose)
     if (std::ranges::find(scene_.wish.overrides, choice) == scene_.wish.overrides.end())
@@ -63,8 +64,8 @@ bool Application::lesson_choice_is_taken(const std::vector<std::string>& choose)
 std::optional<LessonView> Application::lesson_view() const {
   if (!scene_.lesson) return std::nullopt;
   LessonView view = scene_.lesson->view();
-  // What a page measured counts only in the world that it is about: with its own choice, or with
-  // none where it has none.
+  // An answer measured on a page counts only in the world with the choices of that page, or without
+  // any choice if the page has none.
   const bool some_choice = std::ranges::any_of(view.steps, [this](const LessonStepView& step) {
     return !step.choose.empty() && lesson_choice_is_taken(step.choose);
   });

@@ -1,4 +1,4 @@
-// Emitters, sensors, forces and particles: added by clicks, changed and taken away by their panel.
+// Emitters, sensors, forces and particles: added by clicks, changed and removed in their panel.
 #include "engine/world/world.hpp"
 #include "viewer/app/editing/new_part.hpp"
 #include "viewer/app/window/application.hpp"
@@ -48,7 +48,7 @@ void Application::remove_part(const RemovePart& removal) {
   const Removal deed = begin_removal("Delete " + removal.name);
   tools_.parts.expect(removal.name, removal.part, true);
   session().post([removal, deed, live = tools_.parts.live()](World& world) {
-    // What broke or was restarted away is in the file all the same.
+    // It may be gone from the world already; it is removed from the file all the same.
     (void)live->remove(world, removal.name, removal.part);
     deed.take(world, RemovedPart{removal.name, removal.part});
     deed.finish(world);
@@ -56,8 +56,8 @@ void Application::remove_part(const RemovePart& removal) {
   tools_.parts.note();
 }
 
-/// Emitters have nothing that could be seen: a cross where they are, and an arrow along which they
-/// emit. Those that a body carries are where that is.
+/// Emitters are invisible, so each gets a cross at its place and an arrow in the direction of
+/// emission. Those carried by a body are drawn on it.
 void Application::draw_emitters() {
   if (!ui_.shows(PanelId::parts) && !ui_.shows(PanelId::build)) return;
   const Frame& frame = world_.frame();

@@ -1,4 +1,4 @@
-// Replays: the one that is played with a scene, and that of what was done here.
+// Replays: the one played with a scene, and that of the user's commands.
 #include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/app/window/application.hpp"
 
@@ -7,12 +7,12 @@
 
 namespace tumble {
 
-/// Nobody has done anything else to the world than the replay that is played into it.
+/// Whether nothing but the replay has changed the world.
 bool Application::follows_replay() const {
   return scene_.replay && scene_.replay->course() != ReplayPlayer::Course::left;
 }
 
-/// What becomes of the replay, once each time that it changes.
+/// Reports the state of the replay each time that it changes.
 void Application::tell_of_replay() {
   const auto course = scene_.replay->take_news();
   if (!course) return;
@@ -25,11 +25,11 @@ void Application::tell_of_replay() {
               {"Take back what you changed, and it goes on"});
 }
 
-/// Once a picture.
+/// To be called once per picture.
 void Application::look_at_replay() {
   if (scene_.replay) {
     tell_of_replay();
-    // What it does may be a change of settings.
+    // Commands of the replay may have changed the settings.
     if (replay_.has_done_more(*scene_.replay)) settings_.fetch(session(), follows_replay());
   }
   const auto saved = replay_.saver().take();
@@ -46,7 +46,7 @@ void Application::look_at_replay() {
             std::move(lines));
 }
 
-/// From the beginning to the moment that is shown.
+/// Saves the commands from the start to the moment shown.
 void Application::save_replay(bool packed) {
   if (replay_.saver().busy()) return ui_.toast(ToastKind::info, "A replay is being saved already");
   if (packed && options_.own_thread)

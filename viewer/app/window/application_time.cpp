@@ -1,4 +1,4 @@
-// Bookmarks, loops, flights of the camera, rulers: what a person marks and measures in a run.
+// Bookmarks, loops, camera flights and rulers.
 #include "viewer/app/window/application.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ bool is_same(const CameraKey& a, const CameraKey& b) {
          a.camera.fov_deg == b.camera.fov_deg && a.follow == b.follow && a.follow_x == b.follow_x;
 }
 
-/// What was done to a list in time order, and at which time: "Set a bookmark at 0.40 s". "" where
-/// nothing was.
+/// Description of a change to a list in time order, with the time: "Set a bookmark at 0.40 s"; ""
+/// if nothing changed.
 template <class Mark>
 std::string list_deed(const std::vector<Mark>& before, const std::vector<Mark>& now, const char* of,
                       const std::function<bool(const Mark&, const Mark&)>& same,
@@ -40,14 +40,14 @@ std::string mark_deed(const SceneMarks& before, const SceneMarks& now, const Tic
 
 }  // namespace
 
-/// What the marks of the scene that is shown are kept by.
+/// The key under which the marks of the scene shown are kept.
 std::string Application::marked_scene() const {
   std::error_code none;
   const auto& file = scene_.file.ours ? scene_.file.path : scene_.file.read_from;
   return file.empty() ? scene_.name : std::filesystem::absolute(file, none).string();
 }
 
-/// Those that were kept of the scene that is shown now.
+/// Loads the marks of the scene shown.
 void Application::open_marks(double tick_seconds) {
   own_flight_ = false;
   keep_marks(true);
@@ -61,8 +61,8 @@ void Application::keep_marks(bool once_more) {
     ui_.toast(ToastKind::warning, "The bookmarks cannot be kept", {kept.error().text()});
 }
 
-/// Once a picture: the loop goes on from its beginning, and what was changed is kept as soon as
-/// nobody is typing.
+/// To be called once per picture: jumps back at the end of the loop, and saves changed marks as
+/// soon as no text is being typed.
 void Application::look_at_marks() {
   if (!in_gesture()) keep_marks();
   if (session().paused() || recording()) return;
@@ -76,7 +76,7 @@ void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
   change_marks([&](SceneMarks& marks) { change(marks.time); });
 }
 
-/// What becomes of bookmarks and flight can be taken back; which span is looped is no deed.
+/// Changes of bookmarks and flight can be undone; the looped span is not part of undo.
 void Application::change_marks(const std::function<void(SceneMarks&)>& change) {
   auto before = std::make_shared<SceneMarks>(marks_.marks());
   marks_.change(change);
@@ -91,14 +91,14 @@ void Application::change_marks(const std::function<void(SceneMarks&)>& change) {
   });
 }
 
-/// Who flies goes on along the keys as they are now.
+/// A camera in flight continues along the changed keys.
 void Application::follow_flight() {
   if (!own_flight_ || !camera_.flying()) return;
   marks_.marks().flight.empty() ? camera_.leave_path() : fly();
 }
 
-/// A recording steps the world frame by frame, and time only goes on in it; says so while there is
-/// one.
+/// During a recording only it advances time: returns true then, and reports that `what` is not
+/// possible.
 bool Application::recording_forbids(const std::string& what) {
   if (recording())
     ui_.toast(ToastKind::info, "No " + what + " while recording",
@@ -106,7 +106,7 @@ bool Application::recording_forbids(const std::string& what) {
   return recording();
 }
 
-/// Going back to the beginning of the span would drop what is done in it.
+/// Jumping back to the beginning of the span would undo what the user does in it.
 void Application::leave_loop() {
   if (!marks_.marks().time.looping) return;
   edit_marks([](TimeMarks& marks) { marks.looping = false; });
@@ -114,8 +114,7 @@ void Application::leave_loop() {
             {"Going back would undo what was changed just now."});
 }
 
-/// Moments that nobody has seen yet are computed; those that are too long ago are not kept any
-/// more.
+/// Ticks that were not seen yet are computed; those that are too long ago are not kept any more.
 void Application::go_to_moment(uint64_t tick) {
   if (recording_forbids("going to another moment")) return;
   const uint64_t first = session().counters().first_tick;
@@ -145,13 +144,13 @@ void Application::toggle_loop() {
   session().set_paused(false);
 }
 
-/// The camera of now becomes a key at this moment.
+/// Adds the present camera as a key at this moment.
 void Application::add_camera_key() {
   CameraKey key{world_.frame().time, camera_.camera(), {}};
   change_marks([&](SceneMarks& marks) {
     const auto same = std::ranges::find(marks.flight, key.time, &CameraKey::time);
     if (same != marks.flight.end()) {
-      // Set anew it goes on following what it did.
+      // A key that is replaced keeps the body that it followed.
       if (const auto x = place_of_body(same->follow)) {
         key.follow = same->follow;
         key.follow_x = *x;
@@ -188,7 +187,7 @@ void Application::follow_from_key(const FollowFromKey& wish) {
   });
 }
 
-/// Who flies goes on along the keys as they are then.
+/// A camera in flight continues along the changed keys.
 void Application::change_flight(const std::function<void(std::vector<CameraKey>&)>& change) {
   change_marks([&](SceneMarks& marks) { change(marks.flight); });
   if (own_flight_ && camera_.flying() && !marks_.marks().flight.empty()) return fly();
@@ -208,7 +207,7 @@ void Application::toggle_flight() {
                            flight.front().time, flight.back().time, shortcut_of(Action::restart))});
 }
 
-/// Along the keys of a person.
+/// Starts the flight along the user's keys.
 void Application::fly() {
   own_flight_ = true;
   ViewPoint view = scene_.view;
@@ -217,11 +216,11 @@ void Application::fly() {
   camera_.look_from(view, world_.view());
 }
 
-/// The plot as a picture of its own, in the colours of the panels.
+/// Saves the plot as an image of its own, in the colours of the panels.
 void Application::save_plot() {
   if (instruments_.measures.series().empty()) return;
   constexpr double width = 960, height = 600;
-  // One of its own, with the same letters: the panels keep what has the keyboard.
+  // A separate UI with the same fonts, so that the panels keep the keyboard focus.
   UiHost page_host;
   page_host.set_scale(host_.scale());
   page_host.set_theme(ui_.theme);
@@ -245,7 +244,7 @@ void Application::save_plot() {
     ui_.toast(ToastKind::error, "The plot cannot be written", {saved.error().text()});
 }
 
-/// A click while the ruler is out.
+/// Handles a click while the ruler is active.
 void Application::rule_at(const std::optional<Pick>& hit) {
   if (!hit) return ui_.toast(ToastKind::info, "The ruler begins and ends on a surface");
   if (instruments_.ruler.full())

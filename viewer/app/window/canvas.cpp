@@ -8,7 +8,7 @@ namespace {
 constexpr double fluent = 0.05;  ///< a picture that takes longer is slow [s]
 constexpr int patience = 20;     ///< slow pictures in a row until drafts are drawn
 
-/// Who stops moving things is not about to move them on [s].
+/// Pictures count as still when nothing has moved for this long [s].
 constexpr double rest = 0.25;
 
 bool same_moment(const SessionView& a, const SessionView& b) {

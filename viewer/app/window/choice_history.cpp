@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// As many as deeds; a wish may have the text of a scene.
+/// Greatest number of steps; a wish may contain the text of a scene.
 constexpr size_t most_choices = 200;
 
 }  // namespace

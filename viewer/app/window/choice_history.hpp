@@ -7,33 +7,34 @@
 
 namespace tumble {
 
-/// Numbers of a scene that a person chose anew. Each choice opens the scene once more, and so does
-/// taking it back: a wish is remembered where deeds remember a moment of the world (EditHistory).
+/// Undo history of changes to the numbers of a scene. Each change opens the scene anew, and so does
+/// undoing it; so this history stores wishes (SceneWish), where EditHistory stores moments of the
+/// world.
 class ChoiceHistory {
  public:
   enum class Way : uint8_t { anew, back, again };
-  /// A choice, and which way it is gone.
+  /// A change, and the direction in which it is done.
   struct Step {
     Way way = Way::anew;
     std::string what;  ///< "Change balls"
     SceneWish before{}, after{};
-    uint64_t tick_before = 0, tick_after = 0;  ///< at which each was left
+    uint64_t tick_before = 0, tick_after = 0;  ///< present tick when each was left
     uint64_t tick() const { return way == Way::back ? tick_before : tick_after; }
-    /// The present moment is the one at which it is gone.
+    /// Records the present tick at which the step is taken.
     void leave_at(uint64_t now) { (way == Way::back ? tick_after : tick_before) = now; }
     const SceneWish& wish() const { return way == Way::back ? before : after; }
   };
-  /// What takes the newest choice back; nothing when there is none.
+  /// The step that undoes the newest change; empty if there is none.
   std::optional<Step> back() const;
-  /// What chooses again what was taken back last.
+  /// The step that redoes the change undone last.
   std::optional<Step> again() const;
-  /// The scene was opened as the step wishes it.
+  /// To be called when the scene was opened as the step wishes.
   void gone(Step step);
-  /// Somebody did something else: what was taken back is not to be done again.
+  /// Another action was taken: nothing can be redone any more.
   void forget_taken_back() { undone_.clear(); }
-  /// Another scene is shown, or this one has another text.
+  /// To be called when another scene, or another text of this one, is shown.
   void forget() { *this = ChoiceHistory{}; }
-  /// Nothing can be taken back.
+  /// Whether there is nothing to undo.
   bool empty() const { return done_.empty(); }
 
  private:

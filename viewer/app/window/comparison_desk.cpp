@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// What is B's is seen through, and blue.
+/// World B is drawn in transparent blue.
 const Vec3f ghost_colour(0.10f, 0.35f, 1.0f);
 constexpr float ghost_opacity = 0.38f, ghost_tint = 0.75f;
 
@@ -21,7 +21,7 @@ void make_ghost(Vec3f& colour) {
   colour = (1 - ghost_tint) * colour + ghost_tint * ghost_colour;
 }
 
-/// Where things are drawn, to the bit.
+/// The exact places (all bits) where things are drawn.
 template <class Thing>
 class Places {
  public:
@@ -52,7 +52,7 @@ class Places {
   std::vector<Place> places_;
 };
 
-/// A body of A by the name that a divergence gives.
+/// The body of A that a divergence names.
 BodyId body_named(const Frame& frame, const std::string& name) {
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     const BodyId id = frame.body(slot).id;
@@ -128,7 +128,7 @@ void ComparisonDesk::update(const Frame& shown, const WorldChoice& of_a) {
 
 std::optional<SessionView> ComparisonDesk::view(const SessionView& shown) const {
   if (!second_ || !seen_.to) return std::nullopt;
-  // Between the same two moments as A where B has them.
+  // Between the same two ticks as A, if B has them.
   const bool beside = seen_.tick_from == shown.from->tick && seen_.tick_to == shown.to->tick;
   SessionView out = shown;
   out.from = beside ? seen_.from : seen_.to;
@@ -160,7 +160,7 @@ void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& 
   ExtractOptions bare;
   bare.world_hierarchy = options.world_hierarchy;
   extract(*seen->from, *seen->to, seen->s, bare, meshes, picture_);
-  // Where both worlds agree the ghost would only cover what it is the ghost of.
+  // Where both worlds agree, the transparent copy would only cover the original.
   const Places<MeshInstance> taken(picture.instances);
   const Places<SphereInstance> taken_by_spheres(picture.spheres);
   for (MeshInstance instance : picture_.instances) {

@@ -14,50 +14,50 @@ namespace tumble {
 struct ExtractOptions;
 class ShapeMeshes;
 
-/// World B beside the one that is shown, for panels and pictures.
+/// Manages world B of a comparison for panels and pictures.
 class ComparisonDesk {
  public:
-  /// B is what A is from now on, or `made`, at its first tick. `trail`: how long paths of bodies
-  /// are [s].
+  /// Starts world B as a copy of A's present state, or as `made`, a world at its first tick.
+  /// `trail`: length of the paths of bodies [s].
   void begin(Session& session, WorldChoice choice, double trail, const World* made = nullptr);
-  /// B is to be opened beside the one that is shown, as this wish says. What is there stays until
+  /// Opens world B from a scene in the background, as this wish says. The present B stays until
   /// then.
   void open(SceneOpener open, SceneWish wish, WorldChoice choice);
-  /// What has been opened, once, and how it was chosen.
+  /// A scene that was opened, and the choice for B; returned once.
   struct Opened {
     WorldChoice choice;
     Result<OpenedScene> scene;
   };
   std::optional<Opened> take_opened();
   void end(Session& session);
-  /// Another world is shown; the session has let go of B.
+  /// To be called when another world is shown; the session has dropped B.
   void forget();
-  /// A was put to a later moment, and B with it: nobody has seen the way.
+  /// To be called when both worlds were set to a later moment, without the frames between.
   void restart_trail() { trails_.start(trail_); }
-  /// Looks at B as it is now. `shown`: of A, and how that was chosen.
+  /// Reads B's present state. `shown`: frame of A; `of_a`: A's choices.
   void update(const Frame& shown, const WorldChoice& of_a);
   /// Null: there is no world B, and none is being opened.
   const WorldComparison* comparison() const { return second_ || opening_ ? &comparison_ : nullptr; }
-  /// Adds B's bodies and particles to the picture of A, as one sees through.
+  /// Adds B's bodies and particles transparently to the picture of A.
   void draw_ghost(const SessionView& shown, const ExtractOptions& options, ShapeMeshes& meshes,
                   RenderScene& picture);
-  /// A picture of B alone, seen as that of A is. What lies under the microscope is A's.
+  /// A picture of B with A's camera and look. The microscope shows what it shows of A.
   RenderScene& draw_beside(const SessionView& shown, const ExtractOptions& options,
                            ShapeMeshes& meshes, const RenderScene& picture);
   const RenderScene& picture() const { return picture_; }
   void look_from(const Camera& camera) { picture_.camera = camera; }
-  /// The moment of B that is shown beside this one of A; none: B has not been seen yet.
+  /// B's moment that corresponds to this one of A; empty: none has been seen yet.
   std::optional<SessionView> view(const SessionView& shown) const;
 
  private:
   std::shared_ptr<SecondWorld> second_;
   std::unique_ptr<SceneLoader> opening_;  ///< null: none is being opened
-  WorldChoice wanted_;                    ///< of that
+  WorldChoice wanted_;                    ///< choice for the world being opened
   SecondWorld::Shown seen_;
   WorldComparison comparison_;
-  RenderScene picture_;  ///< of B, kept for its memory
+  RenderScene picture_;  ///< of B; kept to reuse its memory
   Trails trails_;
-  double trail_ = 0;  ///< how long they are [s]
+  double trail_ = 0;  ///< length of the trails [s]
 };
 
 }  // namespace tumble

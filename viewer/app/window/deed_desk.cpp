@@ -16,7 +16,7 @@ DeedEdits DeedDesk::begin(Session& session, std::string what, bool held, uint64_
                           std::vector<BodyId> selected) {
   if (held && gesture_ == what && !edits_.empty()) return edits_.newest();
   gesture_ = held ? what : std::string();
-  // What came after this moment will not come any more.
+  // The ticks after this one belong to a course that is left.
   newest_tick_ = now;
   return edits_.begin(session, std::move(what), now, std::move(selected));
 }
@@ -63,7 +63,7 @@ void DeedDesk::finish(Session& session, bool own_thread) {
 }
 
 void DeedDesk::see(uint64_t tick, bool jumped) {
-  // What was undone, or began otherwise, is not what lies ahead.
+  // After an undo, or on another course, the later ticks are not those seen before.
   if (jumped && std::exchange(other_course_, false)) newest_tick_ = 0;
   newest_tick_ = std::max(newest_tick_, tick);
 }

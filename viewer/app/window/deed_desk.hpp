@@ -14,48 +14,48 @@
 
 namespace tumble {
 
-/// What a person did to the scene that is shown: deeds to the world and beside it, choices of
-/// numbers, and what of all that is not saved. Each deed leads history onto another course, of
-/// which is known how far it has been seen.
+/// Manages the user's changes to the scene (deeds): undo and redo of changes in the world, beside
+/// it, and of choices of numbers, and the unsaved work. After each change the run takes a new
+/// course, of which the latest tick seen is known.
 class DeedDesk {
  public:
-  /// `folder`: for work that was not saved; empty: none is kept.
+  /// `folder`: where unsaved work is kept; empty: nowhere.
   explicit DeedDesk(std::filesystem::path folder) : unsaved_(std::move(folder)) {}
 
-  /// Another world is shown; its file is given to unsaved().
+  /// To be called when another world is shown; its file is passed to unsaved().
   void forget();
   EditHistory& edits() { return edits_; }
   const EditHistory& edits() const { return edits_; }
   ChoiceHistory& choices() { return choices_; }
   UnsavedWork& unsaved() { return unsaved_; }
 
-  /// Somebody is about to do something. `held`: a button or a key is, and what is asked for again
-  /// meanwhile is one deed. `now`: the moment that is shown.
+  /// To be called before each change. `held`: a button or key is being held, and the same change
+  /// requested repeatedly meanwhile is one undo step. `now`: the tick shown.
   DeedEdits begin(Session& session, std::string what, bool held, uint64_t now,
                   std::vector<BodyId> selected);
-  /// The same beside the world: see EditHistory.
+  /// The same for a change that does not concern the world: see EditHistory.
   void begin_beside(std::string what, bool held, std::function<void()> exchange);
-  /// Whether that would go on with the newest deed.
+  /// Whether such a change would continue the newest undo step.
   bool goes_on(std::string_view what, bool held) const;
-  /// The deed that is going on has come to nothing.
+  /// Drops the newest undo step, which has had no effect.
   void drop_newest();
-  /// Nothing is held any more: what comes next is a deed of its own.
+  /// To be called when nothing is held any more: the next change is an undo step of its own.
   void end_gesture() { gesture_.clear(); }
-  /// Takes the newest deed back, and does it again. Nothing: there is none.
+  /// Undoes the newest change, or redoes the last undone one; empty if there is none.
   std::optional<EditHistory::Back> take_back(Session& session, std::vector<BodyId> selected);
   std::optional<EditHistory::Back> do_again(Session& session, std::vector<BodyId> selected);
-  /// Looks at the newest deeds at once: they count as unsaved work from now on.
+  /// Records the newest changes as unsaved work at once.
   void finish(Session& session, bool own_thread);
 
-  /// The world goes to a moment from which history takes another course, if it was `changed` or
-  /// anything was done.
+  /// To be called when the world goes to a moment after which history takes another course, if it
+  /// was `changed` or there were any changes by the user.
   void jump(bool changed) { other_course_ = changed || !edits_.empty(); }
-  /// A moment is shown. `jumped`: time did not simply go on.
+  /// Takes the tick shown. `jumped`: time did not simply advance.
   void see(uint64_t tick, bool jumped);
-  /// The last moment that was seen on this course.
+  /// The latest tick seen on this course.
   uint64_t newest_tick() const { return newest_tick_; }
-  /// Where nothing of what was selected stands any more, what was selected at the moment that is
-  /// there again.
+  /// If no selected body exists any more, selects what was selected at the moment that undo or redo
+  /// went to.
   void select_as_then(const Frame& frame, Selection& selection);
 
  private:
@@ -64,9 +64,10 @@ class DeedDesk {
   EditHistory edits_;
   ChoiceHistory choices_;
   UnsavedWork unsaved_;
-  std::string gesture_;  ///< the deed that a held button goes on with: a pull at a slider is one
+  /// The undo step that a held button continues: a drag of a slider is one step.
+  std::string gesture_;
   uint64_t newest_tick_ = 0;
-  bool other_course_ = false;          ///< another one begins with the next jump
+  bool other_course_ = false;          ///< the next jump begins another course
   std::vector<BodyId> selected_then_;  ///< at the moment that undo or redo goes to
 };
 

@@ -16,7 +16,7 @@
 
 namespace tumble {
 
-/// What bodies and parts are made, moved, copied and changed with.
+/// The tools that create, move, copy and change bodies and parts.
 struct EditingTools {
   Builder builder;
   Duplicator duplicator;
@@ -26,10 +26,10 @@ struct EditingTools {
   MeshModes mesh_modes;
   SelectedDef selected_def;
   PartsDesk parts;
-  std::optional<PointerBox> box;  ///< being drawn around bodies
-  Refusal refusal;                ///< by the world, of what was asked of it
+  std::optional<PointerBox> box;  ///< selection box being dragged
+  Refusal refusal;                ///< why the world rejected a request
 
-  /// Another world is shown, with these parts; what was copied is kept.
+  /// To be called when another world is shown, with its parts; the clipboard is kept.
   void open(std::shared_ptr<const SceneDescription> described, std::shared_ptr<LiveParts> live) {
     builder.cancel();
     duplicator.forget();

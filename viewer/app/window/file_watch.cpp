@@ -10,12 +10,12 @@ namespace {
 
 constexpr double seconds_between_looks = 0.25;
 
-/// A file that was not there so often in a row is not being written anew.
+/// A file missing in this many consecutive polls has been removed, not just rewritten.
 constexpr int looks_before_gone = 4;
 
-/// File systems stamp files by a clock of some milliseconds (of up to two seconds on FAT): a file
-/// that was written a shorter time ago may be written once more without another time. So its stamp
-/// proves nothing yet (git calls such a file "racily clean"), and it is read.
+/// File systems stamp files by a clock with a resolution of some milliseconds (up to two seconds on
+/// FAT): a file written very recently may be written again without a change of its stamp. Such a
+/// stamp proves nothing (git calls such a file "racily clean"), and the file is read.
 constexpr std::chrono::seconds coarsest_clock{2};
 
 }  // namespace

@@ -6,15 +6,15 @@
 
 namespace tumble {
 
-/// Notices that somebody else has written a file, by looking at its time and size now and then.
+/// Detects that another program has written a file, by polling its time and size.
 class FileWatch {
  public:
-  /// Watches this file from now on, `known` being what it holds; an empty path: nothing.
+  /// Watches this file from now on; `known` is its present content. An empty path: watches nothing.
   void open(std::filesystem::path file, std::string known);
-  /// Called once a picture. The new text, once, as soon as the file has been left alone for an
-  /// instant (editors write in steps). Nothing while it cannot be read.
+  /// To be called once per picture. Returns the new text, once, when the file has not changed for a
+  /// moment (editors write in several steps). Empty while it cannot be read.
   std::optional<std::string> look(double dt);
-  /// The file is there no longer, once each time (editors take it away for an instant).
+  /// Whether the file has disappeared; once each time (editors remove it for a moment).
   bool take_gone() { return std::exchange(gone_, false); }
 
  private:
@@ -28,10 +28,11 @@ class FileWatch {
   std::filesystem::path file_;
   std::string known_;
   std::optional<Stamp> seen_;
-  bool gone_ = false;      ///< and nobody has been told yet
-  int missed_ = 0;         ///< so many looks in a row have not found it
-  bool to_read_ = false;   ///< its stamp does not prove that it is as it was when it was last read
-  double since_look_ = 0;  ///< [s]
+  bool gone_ = false;  ///< not reported yet
+  int missed_ = 0;     ///< consecutive polls that did not find it
+  /// Its time stamp does not prove that it is unchanged since it was last read.
+  bool to_read_ = false;
+  double since_look_ = 0;  ///< time since the last poll [s]
 };
 
 }  // namespace tumble

@@ -10,7 +10,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t most_entries = 2000;  // more nobody looks through
+constexpr size_t most_entries = 2000;  // limit of the list's length
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));

@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// The folders in a folder, and the files there that the window can open, by name without regard to
-/// case; hidden ones are left out.
+/// The subfolders of a folder and the files that the window can open, sorted by name without regard
+/// to case; hidden ones are left out.
 FolderView look_through(const std::filesystem::path& folder);
 
 /// Whether the window can open a file of this name: scenes, packs, robots, meshes.

@@ -67,8 +67,8 @@ Key key_from_glfw(int key) {
   }
 }
 
-/// Letters and signs are meant as they are printed on the person's keyboard, not where an American
-/// one has them.
+/// Shortcuts refer to the letters and signs printed on the user's keyboard, not to their places on
+/// an American one.
 Key key_as_printed(int key, int scancode) {
   if (key < 127) {
     if (const char* name = glfwGetKeyName(key, scancode); name && name[0] && !name[1])

@@ -10,8 +10,8 @@ struct GLFWwindow;
 
 namespace tumble {
 
-/// Turns a GLFW window's callbacks into events; nothing that happened between two frames is lost.
-/// Takes the window's user pointer.
+/// Turns a GLFW window's callbacks into events; none between two frames is lost. Uses the window's
+/// user pointer.
 class GlfwInput {
  public:
   explicit GlfwInput(GLFWwindow* window);
@@ -19,9 +19,10 @@ class GlfwInput {
   GlfwInput(const GlfwInput&) = delete;
   GlfwInput& operator=(const GlfwInput&) = delete;
 
-  /// What happened since the last call, positions divided by window units per UI unit.
+  /// Events since the last call; positions are divided by window units per UI unit.
   std::vector<InputEvent> take(double window_units_per_ui_unit);
-  /// Since the last call the system asked for the window's picture, or the window got the keyboard.
+  /// Whether, since the last call, the system requested a redraw or the window got the keyboard
+  /// focus.
   bool take_exposed() { return std::exchange(exposed_, false); }
   void set_pointer_look(PointerLook look);
   UiHost::Clipboard clipboard();

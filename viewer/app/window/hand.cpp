@@ -12,7 +12,7 @@ void Hand::take(Session& session, const MouseSpringDef& spring) {
     const auto id = world.create_force(spring);
     if (!id) return;
     springs->held = *id;
-    // Going back gives the same ids once more.
+    // After going back in time the same ids are given again.
     if (std::find(springs->made.begin(), springs->made.end(), *id) == springs->made.end())
       springs->made.push_back(*id);
   });
@@ -44,7 +44,7 @@ void Hand::let_go(Session& session) {
 void Hand::let_go_of_the_past(Session& session) {
   let_go(session);
   session.post([springs = springs_](World& world) {
-    for (const ForceId id : springs->made) (void)world.destroy_force(id);  // or is gone already
+    for (const ForceId id : springs->made) (void)world.destroy_force(id);  // it may no longer exist
   });
 }
 

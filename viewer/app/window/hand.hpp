@@ -8,26 +8,26 @@
 
 namespace tumble {
 
-/// The hand of a person in the world: a mouse spring that is made when a body is taken, follows the
-/// pointer, and goes when it is let go. All of it are commands of the world, so that going back and
-/// replays find the same pulls; in the past that one goes back to nobody holds anything.
+/// Pulls bodies by a mouse spring: created when a body is grabbed, moved with the pointer, and
+/// destroyed on release. All this is done by World commands, so that going back in time and replays
+/// reproduce the pulls; when the session goes back into such a pull, its spring is removed.
 class Hand {
  public:
   void take(Session& session, const MouseSpringDef& spring);
   void move(Session& session, const MouseSpringDef& spring);
   void turn(Session& session, BodyId body, const Vec3& omega);
   void let_go(Session& session);
-  /// Lets go of what was held at the moment to which the session has gone back.
+  /// Removes springs of this hand that exist at the moment to which the session has gone back.
   void let_go_of_the_past(Session& session);
   bool holds() const { return holds_; }
-  /// Another world is shown.
+  /// To be called when another world is shown.
   void forget() { *this = Hand{}; }
 
  private:
-  /// Touched by jobs only, which run in order.
+  /// Accessed only by jobs of the session, which run in order.
   struct Springs {
     ForceId held;
-    std::vector<ForceId> made;  ///< by this hand in this world; many are gone
+    std::vector<ForceId> made;  ///< all springs made in this world; most no longer exist
   };
   std::shared_ptr<Springs> springs_ = std::make_shared<Springs>();
   bool holds_ = false;

@@ -14,18 +14,18 @@
 
 namespace tumble {
 
-/// What a person watches a run by.
+/// The instruments with which a run is observed.
 struct Instruments {
   History history;
   Measures measures;
-  PastCurves past;  ///< of those
+  PastCurves past;  ///< computes the past of plotted curves
   Ruler ruler;
-  std::shared_ptr<EventWatch> events;  ///< of the world that is shown
+  std::shared_ptr<EventWatch> events;  ///< events of the world shown
   ContactProbe probe;
   MicroscopeDesk microscope;
   MicroscopeProbe microscope_probe;
 
-  /// Another world is shown, of which nothing was seen yet.
+  /// To be called when another world is shown.
   void open(std::optional<MicroscopeSetup> of_scene) {
     history.clear();
     measures.clear();

@@ -3,11 +3,11 @@
 
 namespace tumble {
 
-/// Overlays that something has switched on, the page of a lesson or a tool: they go with it, while
-/// those that a person chose stay.
+/// Overlays that a lesson's page or a tool has switched on. They are switched off when it ends,
+/// whereas overlays that the user has switched on stay.
 class LentOverlays {
  public:
-  /// It ends; what the scene wants stays, too.
+  /// Switches them off, except those that the scene wants.
   void end(const Overlays& of_scene, Overlays& shown) {
     for (const OverlayEntry& entry : all_overlays()) {
       const auto on = entry.enabled;
@@ -15,12 +15,12 @@ class LentOverlays {
     }
     own_ = {};
   }
-  /// One more.
+  /// Switches on an overlay.
   void switch_on(bool Overlays::*overlay, Overlays& shown) {
     own_.*overlay = own_.*overlay || !(shown.*overlay);
     shown.*overlay = true;
   }
-  /// Another page is shown.
+  /// Changes the set of overlays, for another page.
   void turn_to(const Overlays& wanted, Overlays& shown) {
     for (const OverlayEntry& entry : all_overlays()) {
       const auto on = entry.enabled;

@@ -39,7 +39,7 @@ Json json_of(const SceneMarks& marks, const TickClock& clock) {
   return out;
 }
 
-/// Throws what nlohmann throws where something is of another kind.
+/// Throws nlohmann::json's exception if the value has the wrong type.
 uint64_t tick_at(const Json& seconds, double tick) {
   const double ticks = seconds.get<double>() / tick;
   if (!(ticks >= 0 && ticks < 1e15)) throw std::runtime_error("a time that no run reaches");
@@ -88,7 +88,7 @@ SceneMarks marks_of(const Json& json, double tick) {
   return out;
 }
 
-/// "" where there is none.
+/// "" if there is no file.
 Result<std::string> text_of_marks(const fs::path& file) {
   std::error_code none;
   if (file.empty() || !fs::exists(file, none)) return std::string();
@@ -180,7 +180,7 @@ Status MarksDesk::write() {
     return {};
   }
   if (!readable_) return {};
-  // Anew: another window may have written its own meanwhile.
+  // Read anew, since another window may have written its own marks meanwhile.
   const auto text = text_of_marks(file_);
   if (!text) return in_file(text.error(), file_);
   const auto changed = with_marks(*text, scene_, marks_, clock_);

@@ -6,18 +6,17 @@
 
 namespace tumble {
 
-/// What lies under the microscope: what the scene puts there, else a selected body and its
-/// neighbour.
+/// What the microscope shows: what the scene asks for, or else a selected body and its neighbour.
 class MicroscopeDesk {
  public:
   void open(std::optional<MicroscopeSetup> of_scene);
   bool empty() const { return !setup_; }
-  /// With what a person chose instead of the scene's algorithm.
+  /// The setup, in which a choice of the user replaces the scene's algorithm.
   std::optional<MicroscopeSetup> setup(const MicroscopeChoice& choice) const;
-  /// Puts a body and its neighbour there, or without a body what needs none; false when no
-  /// microscope takes them.
+  /// Puts a body and its neighbour under the microscope, or with a null body an algorithm that
+  /// needs none; false if no microscope accepts them.
   bool put(const Frame& frame, BodyId body);
-  /// Takes away what a person put there; false when it is the scene's, or nothing.
+  /// Removes what the user put under the microscope; false if it was the scene or nothing is there.
   bool take_away();
 
  private:

@@ -25,13 +25,14 @@ namespace {
 
 constexpr const char* template_of_new = "assets/new_scene.json";
 
-/// Whether both name one file, however they are written.
+/// Whether two paths lead to the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;
   return std::filesystem::equivalent(a, b, none);
 }
 
-/// Scenes that come with Tumble stay as they are: theirs are saved to the working folder.
+/// Scenes that come with Tumble are not overwritten: changed versions are saved to the working
+/// folder.
 SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   SceneFile file;
   if (is_mesh_file(loaded.file) || is_robot_file(loaded.file)) return file;
@@ -43,7 +44,7 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
     file.unnamed = true;
     return file;
   }
-  // What was unpacked stays as it came: it is the cache's.
+  // Files unpacked from a pack belong to the cache and are not overwritten.
   const std::string packs = pack_folder().string() + "/";
   std::error_code none;
   if (loaded.file.string().starts_with(packs) && is_pack_file(request.scene)) {
@@ -58,7 +59,7 @@ SceneFile file_of(const LoadedScene& loaded, const SceneRequest& request) {
   return file;
 }
 
-/// Limits of a number that the file gives without any: by its magnitude, and a count stays one.
+/// Limits for a number to which the file gives none: from its magnitude; a count stays a count.
 void limit_by_magnitude(SceneParameter& p) {
   if (p.value == 0) {
     p.min = -1;
@@ -72,7 +73,8 @@ void limit_by_magnitude(SceneParameter& p) {
   p.max = p.value > 0 ? most : -least;
 }
 
-/// The numbers of the scene. Those that the file writes as an expression follow from the others.
+/// The numbers that can be changed. Those given by an expression depend on the others and are left
+/// out.
 std::vector<SceneParameter> parameters_of(const SceneDescription& scene, const std::string& text) {
   const JsonTextEdit file(text);
   const auto is_number = [&](const std::string& name) {
@@ -122,7 +124,8 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.title = description->title;
   out.doc = description->description;
   out.warnings = loaded->built.warnings;
-  // One that was asked for must be there; of a pack the scene is shown without it.
+  // A replay that was requested must exist and fit; if only the pack has one that does not, the
+  // scene is shown without it.
   auto replay = replay_of(request, *loaded);
   if (!replay && !request.replay.file.empty()) return replay.error();
   if (replay)

@@ -4,9 +4,9 @@
 
 namespace tumble {
 
-/// What a new scene begins as: a floor, and nothing on it. It is saved to a name of its own.
+/// Text of a new scene: a floor with nothing on it.
 std::string new_scene_file();
-/// A scene ready for the window: the world at its first tick with all that is shown around it.
+/// A scene ready for the window: its world at the first tick and everything shown around it.
 Result<OpenedScene> open_scene(const SceneRequest& request, double aspect);
 
 }  // namespace tumble

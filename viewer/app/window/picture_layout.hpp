@@ -5,24 +5,24 @@
 
 namespace tumble {
 
-/// The window's picture under way: how large it is, and where in it panels and world stand.
+/// Size of the window's picture, and the areas of panels and scene in it.
 struct PictureLayout {
   struct Size {
     int width = 1280, height = 800;  ///< [px]
     double scale = 1;                ///< pixels per UI unit
-    double display_period = 0;       ///< of what it is shown on; 0: not known [s]
+    double display_period = 0;       ///< refresh period of the display; 0: not known [s]
   };
   Size size{0, 0, 1, 0};
   UiDrawList panels;
-  UiRect free_area;  ///< of the scene, between the panels [UI units]
-  ViewArea area;     ///< of its picture, or both pictures
+  UiRect free_area;  ///< left to the scene between the panels [UI units]
+  ViewArea area;     ///< area of its picture, or of both pictures
 
-  /// Where the world's picture stands, `beside` that of another world or alone.
+  /// Area of the world's picture: alone, or `beside` that of another world.
   ViewArea area_in(const UiRect& free, bool beside) const {
     return beside ? ViewArea::beside(size.width, size.height, size.scale, free)
                   : ViewArea(size.width, size.height, size.scale);
   }
-  /// Without any panels [UI units].
+  /// The whole picture, without any panels [UI units].
   UiRect all() const {
     return {0, 0, float(size.width / size.scale), float(size.height / size.scale)};
   }

@@ -41,11 +41,11 @@ PointerEffects Pointer::handle(const std::vector<InputEvent>& for_scene, const H
   view.height = area_.height();
   view.keys_are_free = keys_are_free;
   view.pick = [&](const Ray& ray) {
-    // Until B has been seen nothing is in its picture.
+    // The picture of B is empty until B's first frame.
     if (beside && !at.beside) return std::optional<Pick>{};
     const SessionView& seen = beside ? *at.beside : at.shown;
     auto hit = picker_(seen.from, seen.to, seen.s, ray);
-    // What is B's follows A: it can be pointed at, and not be moved by hand.
+    // World B follows A: its bodies can be selected, but not moved.
     if (hit && beside) hit->type = BodyType::fixed;
     return hit;
   };

@@ -11,32 +11,33 @@
 
 namespace tumble {
 
-/// Which drags arrange bodies: both null while none does (see PointerTool::View).
+/// The tools to which drags go while bodies are being arranged; otherwise both null (see
+/// PointerTool::View).
 struct ArrangeGestures {
   std::function<bool(double x, double y)> on_handle;
   std::function<bool(const Pick&)> arranged;
 };
 
-/// What the pointer can be on: the moment that the picture shows, and beside it that of world B.
+/// What the pointer can hit: the moment shown, and world B's moment in the picture beside it.
 struct PointedAt {
   const SessionView& shown;
-  const SessionView* beside = nullptr;  ///< null: there is no second picture, or nothing in it yet
+  const SessionView* beside = nullptr;  ///< null: there is no second picture, or it is still empty
 };
 
-/// The pointer over the picture: what is held down, the gesture that is under way, what it is on.
+/// State of the pointer over the picture: buttons held, the gesture under way, the object below it.
 /// A gesture ends in the picture where it began.
 class Pointer {
  public:
-  /// Where the pictures are from now on.
+  /// Sets the positions of the pictures.
   void move_to(const ViewArea& area);
-  /// Events of a picture, all of them, in order.
+  /// Takes all events of a picture, in order.
   void note(const InputEvent& event) { held_.apply(event); }
   const HeldInput& held() const { return held_; }
-  /// Across the picture that it is in; held().y is down it.
+  /// x within the picture that the pointer is in; y is held().y.
   double x() const { return held_.x - origin_; }
-  /// On the picture of world B, which is looked at only.
+  /// Whether it is in the picture of world B, where nothing can be changed.
   bool is_beside() const { return area_.places() && origin_ == area_.right(); }
-  /// Left edge of the picture it is in.
+  /// Left edge of the picture that it is in.
   double origin() const { return origin_; }
   const PointerTool& tool() const { return tool_; }
   const MouseDrag& drag() const { return tool_.drag(); }
@@ -46,20 +47,21 @@ class Pointer {
   void forget_click() { tool_.forget_click(); }
   void set_placing(bool on) { tool_.set_placing(on); }
 
-  /// Whether the panels must not see the pointer: it is busy with the scene, or about to be.
+  /// Whether the panels must ignore the pointer because a gesture in the scene is, or is about to
+  /// be, under way.
   bool is_taken(std::span<const InputEvent> events, double dt) const;
-  /// What the events that are the scene's ask for; `before`: what was held before the picture's;
-  /// `keys_are_free`: nobody is typing.
+  /// The effects of those events that belong to the scene. `before`: what was held before this
+  /// picture's events; `keys_are_free`: no text field has the keyboard.
   PointerEffects handle(const std::vector<InputEvent>& for_scene, const HeldInput& before,
                         double dt, const PointedAt& at, CameraController& camera,
                         const ArrangeGestures& arrange, bool keys_are_free);
-  /// Chooses the pointer's look: that of the panels, a hand over what can be dragged.
+  /// Sets the cursor's shape: that of the panels, or a hand over what can be dragged.
   void choose_look(const UiHost& panels, const SessionView& shown, const Camera& camera);
 
  private:
   HeldInput held_;
   ViewArea area_;
-  double origin_ = 0;  ///< of the picture that it is in
+  double origin_ = 0;  ///< left edge of the picture that it is in
   PointerTool tool_;
   Picker picker_;
   PointerLook look_ = PointerLook::arrow;

@@ -22,7 +22,7 @@ fs::path user_file(const char* name) {
   return folder.empty() ? fs::path() : folder / "tumble" / name;
 }
 
-/// The text of a file that may be missing.
+/// Content of a file; empty if it does not exist.
 std::string text_if_there(const fs::path& file, std::vector<std::string>& faults) {
   std::error_code none;
   if (file.empty() || !fs::exists(file, none)) return {};

@@ -9,25 +9,25 @@
 
 namespace tumble {
 
-/// How a person wants the window, in every scene.
+/// The user's preferences for the window, in all scenes.
 struct Preferences {
   Theme theme = Theme::dark;
-  double zoom = 1;  ///< of panels and text
+  double zoom = 1;  ///< scale of panels and text
   bool operator==(const Preferences&) const = default;
 };
 constexpr double least_zoom = 0.7, greatest_zoom = 2.5;
 
-/// $XDG_CONFIG_HOME/tumble (~/.config/tumble) and the files there; empty where there is no home.
-std::filesystem::path preferences_file();  ///< window.json, which the window writes
-std::filesystem::path keys_file();         ///< keys.json, which a person writes
+/// Files in $XDG_CONFIG_HOME/tumble (~/.config/tumble); empty if there is no home directory.
+std::filesystem::path preferences_file();  ///< window.json, written by the program
+std::filesystem::path keys_file();         ///< keys.json, written by the user
 
-/// Of a text such as `{"theme": "light", "scale": 1.2}`; what is wrong keeps its usual value and is
-/// said, a line each.
+/// Parses a text such as `{"theme": "light", "scale": 1.2}`. Invalid values keep their defaults and
+/// are reported in `faults`, one line each.
 Preferences read_preferences(std::string_view json, std::vector<std::string>& faults);
 Status write_preferences(const std::filesystem::path& file, const Preferences& preferences);
 
-/// Bindings and preferences of this user, the bindings put to use. Faults name their file; a file
-/// that is not there is none.
+/// Reads and applies the user's key bindings, and returns the preferences. Faults name their file;
+/// a missing file is not a fault.
 Preferences take_up_user_files(std::vector<std::string>& faults);
 
 }  // namespace tumble

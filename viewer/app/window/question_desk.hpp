@@ -9,13 +9,13 @@
 
 namespace tumble {
 
-/// The question that the window asks, with what each answer does.
+/// The modal question that the window asks, and the effect of each answer.
 class QuestionDesk {
  public:
   struct Asked {
     Question question{};
-    std::vector<std::function<void()>> answers{};  ///< the last one leaves all as it is
-    bool quits = false;                            ///< asked before leaving
+    std::vector<std::function<void()>> answers{};  ///< the last answer changes nothing
+    bool quits = false;                            ///< asked before quitting
   };
   void ask(Asked asked, UiState& ui) {
     asked_ = std::move(asked);
@@ -34,9 +34,9 @@ class QuestionDesk {
   }
   void forget() { asked_.reset(); }
   bool open() const { return asked_.has_value(); }
-  /// Asking to leave once more leaves.
+  /// Requesting to quit again while this question is asked quits.
   bool quits() const { return asked_ && asked_->quits; }
-  /// Null: nothing is asked.
+  /// Null: there is no question.
   const Question* question() const { return asked_ ? &asked_->question : nullptr; }
 
  private:

@@ -8,19 +8,18 @@ namespace tumble {
 class ReplayPlayer;
 struct OpenedScene;
 
-/// The replay that is played into the world that is shown, as far as the window has seen it, and
-/// the one of what is done there.
+/// The replay being played into the world shown, and the saving of a replay of the user's commands.
 class ReplayDesk {
  public:
-  /// A scene is about to be shown.
+  /// To be called when a scene is about to be shown.
   void open(const OpenedScene& scene, int threads);
-  /// Whether the replay has done anything since this was asked last.
+  /// Whether the replay has executed any command since the last call.
   bool has_done_more(const ReplayPlayer& played);
   ReplaySaver& saver() { return saver_; }
 
  private:
   ReplaySaver saver_;
-  uint64_t deeds_ = 0;  ///< of what is played
+  uint64_t deeds_ = 0;  ///< number of commands the played replay has executed
 };
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ const Vec4f ruler_ink(0.01f, 0.01f, 0.012f, 0.85f), ruler_colour(1, 0.80f, 0.08f
 constexpr int arc_pieces = 24;
 constexpr double arc_share = 0.4;  ///< radius of the arc over the shorter arm
 
-/// Dark about it, so that it is seen on any ground.
+/// A line with a dark border, visible on any background.
 void add_stroke(const Vec3& a, const Vec3& b, RenderScene& picture) {
   LineSegment line;
   line.a = a.cast<float>();
@@ -46,18 +46,18 @@ void add_words(const Vec3& x, std::string text, RenderScene& picture) {
   label.colour = ruler_colour;
   label.size = 16;
   label.anchor = Vec3f(0.5f, 1.25f, 0);
-  label.plate = 0.7f;  // the line that it belongs to may run behind it
+  label.plate = 0.7f;  // the line it belongs to may pass behind it
   picture.texts.push_back(std::move(label));
 }
 
-/// From one arm to the other about the corner; gives where its words stand.
+/// Draws the arc from one arm to the other about the vertex; returns where its label goes.
 Vec3 add_arc(const Vec3& corner, const Vec3& u, const Vec3& v, RenderScene& picture) {
   const double angle = angle_between(u, v);
   const double radius = arc_share * std::min(u.norm(), v.norm());
   if (!(radius > 0)) return corner;
   const Vec3 along = u.normalized();
   Vec3 across = v - v.dot(along) * along;
-  // Arms on one line span no plane: any does.
+  // Parallel arms span no plane: any plane through them will do.
   if (!(across.norm() > 1e-9 * v.norm())) across = along.unitOrthogonal();
   across.normalize();
   const auto at = [&](double part) -> Vec3 {
@@ -125,7 +125,7 @@ bool Ruler::click(const SessionView& shown, const Pick& hit, bool angle) {
   const std::string& name = shown.to->info(*slot).name;
   const Pose pose = interpolated_pose(*shown.from, *shown.to, *slot, shown.s);
   const size_t need = angle ? 3 : 2;
-  // Points of an angle that was given up for a distance.
+  // Left over from an angle that was given up for a distance.
   if (picked_.size() >= need) picked_.clear();
   picked_.push_back({hit.body, pose.inverse_point(hit.x_world),
                      name.empty() ? fmt::format("body {}", hit.body.index) : name});
@@ -173,7 +173,7 @@ void Ruler::draw(const SessionView& shown, RenderScene& picture) const {
   };
   for (const Points& points : all_)
     if (const auto x = seen_at(points); x.size() == points.size()) draw_ruler(x, picture);
-  // Two points of a protractor are no distance: its words come with the third.
+  // Two points of a protractor give no reading; only three do.
   const std::vector<Vec3> x = seen_at(picked_);
   for (size_t i = 0; i + 1 < x.size(); ++i) add_stroke(x[i], x[i + 1], picture);
   for (const Vec3& point : x) add_spot(point, picture);

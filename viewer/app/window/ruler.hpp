@@ -10,33 +10,33 @@
 
 namespace tumble {
 
-/// Rulers between two points on bodies, and protractors at three (an arm, the corner, the other
-/// arm). The points stick to their bodies, so that readings go on while these move. One whose
-/// bodies are not all there, as before the first of them came into being, waits until they are.
+/// Rulers between two points on bodies, and protractors at three points (end of an arm, vertex, end
+/// of the other arm). The points are fixed to their bodies and move with them. A reading for which
+/// not all bodies exist (yet) waits until they do.
 class Ruler {
  public:
-  /// More than these nobody tells apart in a picture.
+  /// Greatest number of readings; more could not be told apart in a picture.
   static constexpr size_t most = 8;
 
-  /// One more point, where the picture of now was hit. True when it completes a reading.
+  /// Adds a point where the picture was hit. True if it completes a reading.
   bool click(const SessionView& shown, const Pick& hit, bool angle);
   bool half_way() const { return !picked_.empty(); }
   bool full() const { return all_.size() >= most; }
-  /// Forgets the points of a reading that is not complete.
+  /// Drops the points of an incomplete reading.
   void cancel();
   void remove(size_t index);
-  /// Another world is shown.
+  /// To be called when another world is shown.
   void forget() { *this = Ruler{}; }
-  /// Reads all for a frame.
+  /// Updates all readings for a frame.
   void update(const Frame& frame);
   const RulerView& view() const { return view_; }
-  /// Points, lines, arcs and what they say, at the moment that is shown.
+  /// Draws points, lines, arcs and values at the moment shown.
   void draw(const SessionView& shown, RenderScene& picture) const;
 
  private:
   struct Point {
     BodyId body;
-    Vec3 x_body;       ///< in the frame of the body's centre of mass [m]
+    Vec3 x_body;       ///< in the body frame, relative to the centre of mass [m]
     std::string name;  ///< of the body
   };
   using Points = std::vector<Point>;
@@ -50,7 +50,7 @@ class Ruler {
   int made_ = 0;
 };
 
-/// The angle between two arms [rad], 0 .. pi; exact to rounding for nearly parallel ones, too.
+/// The angle between two vectors [rad], 0 .. pi; accurate also for nearly parallel ones.
 double angle_between(const Vec3& u, const Vec3& v);
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ void SceneCamera::open(const ViewPoint& view, const Frame& first) {
 
 void SceneCamera::go_on_from(const SceneCamera& before) {
   controller_ = before.controller_;
-  // It has gone along with its body so far; the rest of the way comes with the next moment.
+  // The camera has already moved by this much with its body; the rest follows with the next frame.
   if (!before.view_.follow.is_null()) carried_to_ = before.carried_to_;
   flying_ = flying_ && before.flying_;
   flown_to_ = camera();

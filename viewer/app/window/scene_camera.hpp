@@ -5,31 +5,30 @@
 
 namespace tumble {
 
-/// The camera of the window: begins as the scene's, goes along with the body that this follows, and
-/// keeps what a person does to it.
+/// The camera of the window: starts as the scene's camera, follows the body that this one follows,
+/// and keeps the user's changes.
 class SceneCamera {
  public:
   void open(const ViewPoint& view, const Frame& first);
-  /// The same scene was opened anew: one goes on looking from where one was before, and going
-  /// along.
+  /// To be called after the same scene was opened anew: keeps the view and the following of a body.
   void go_on_from(const SceneCamera& before);
   CameraController& controller() { return controller_; }
-  /// Of the whole window.
+  /// The camera for the whole window.
   const Camera& camera() const { return controller_.camera(); }
-  /// Of the picture of the world, which may be narrower.
+  /// The camera for the picture of the world, which may be narrower.
   Camera seen() const { return controller_.seen(); }
 
-  /// Goes along with the followed body, or on along its path, to the moment that is shown; off
-  /// the path once a person has moved it, until go_back().
+  /// Follows the body, or the camera's path, to the moment shown. The path is left when the user
+  /// moves the camera, until go_back().
   void carry(const SessionView& shown);
   void stay_above(const Ground& ground);
-  /// The scene's camera, as it is at this moment.
+  /// Returns to the scene's camera as it is at this moment.
   void go_back(const SessionView& shown);
-  /// Another camera of the scene, from now on.
+  /// Takes another camera of the scene from now on.
   void look_from(const ViewPoint& view, const SessionView& shown);
-  /// On the path of the scene's camera, or of the one given last.
+  /// Whether the camera follows the path of the scene's camera, or of the one given last.
   bool flying() const { return flying_; }
-  /// Stays where it is.
+  /// Stays at the present place.
   void leave_path() { flying_ = false; }
   void frame_all(const Frame& frame, double aspect);
   void frame_body(const Frame& frame, BodyId body, double aspect);
@@ -39,10 +38,10 @@ class SceneCamera {
 
   CameraController controller_;
   ViewPoint view_;
-  Vec3 carried_to_ = Vec3::Zero();  ///< where the followed camera looked last [m]
-  bool flying_ = false;             ///< on the path of the scene's camera
-  Camera flown_to_;                 ///< there
-  Aabb home_;                       ///< what was to be seen when the scene was opened [m]
+  Vec3 carried_to_ = Vec3::Zero();  ///< where the camera last followed its body to [m]
+  bool flying_ = false;             ///< following the path of the scene's camera
+  Camera flown_to_;                 ///< the last camera on that path
+  Aabb home_;                       ///< bounds of what was in view when the scene was opened [m]
 };
 
 }  // namespace tumble

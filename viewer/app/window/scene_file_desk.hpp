@@ -9,29 +9,31 @@
 
 namespace tumble {
 
-/// The file of the scene that is shown: saved by a person, changed by others.
+/// The file of the scene shown: saved by the user, changed by other programs.
 class SceneFileDesk {
  public:
   void open(const SceneFile& file) {
     saver_.open(file);
     watch_.open(file.read_from, file.on_disk);
   }
-  /// Somebody wants to see what saving would write: see SceneSaver.
+  /// Prepares a preview of what saving would write: see SceneSaver.
   void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others,
                bool beside) {
     named_ = false;
     saver_.prepare(session, std::move(deeds), std::move(others), beside);
   }
-  /// Called once a picture. Where it would go is proposed in `name`; from then on a person says.
+  /// To be called once per picture. Sets `name` to the proposed path once; later the user may
+  /// change it.
   void update(std::string& name) {
     saver_.update();
     if (!saver_.preview()) return;
     if (!std::exchange(named_, true)) name = saver_.preview()->file;
     saver_.name(name);
   }
-  /// Null: nothing was prepared, or it is not known yet.
+  /// Null: no preview was requested, or it is not ready yet.
   const SavePreview* preview() const { return saver_.preview(); }
-  /// From then on that is the scene's file, and watched. What was unpacked is nobody's to change.
+  /// Writes the file, which becomes the scene's file and is watched. Files unpacked from a pack are
+  /// not watched, since nobody is to edit them.
   Status write(const std::string& name) {
     if (name.empty()) return Error{ErrorCode::invalid_argument, "a name is missing", {}, {}};
     if (Status done = saver_.write(name); !done) return done;
@@ -39,9 +41,9 @@ class SceneFileDesk {
     return {};
   }
   const SceneFile& file() const { return saver_.file(); }
-  /// What somebody else has written into it, once.
+  /// New text written by another program, once.
   std::optional<std::string> changed_by_others(double dt) { return watch_.look(dt); }
-  /// Somebody else has taken it away, once.
+  /// Whether another program has removed the file, once.
   bool taken_away() { return watch_.take_gone(); }
 
  private:

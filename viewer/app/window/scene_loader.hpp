@@ -21,18 +21,19 @@ class ReplayPlayer;
 class SceneAssertions;
 class SceneLesson;
 
-/// What is to be opened: a scene by name, or a scene or mesh file by path.
+/// What to open: a scene by name, or a scene or mesh file by path.
 struct SceneWish {
   std::string scene;
-  std::vector<std::string> overrides;  ///< "path=value", as --set has them
-  std::optional<std::string> text;     ///< in place of what the file holds: unsaved work
-  std::filesystem::path called{};      ///< a new scene that is gone on with; empty: by a free name
+  std::vector<std::string> overrides;  ///< "path=value", as for --set
+  std::optional<std::string> text;     ///< instead of the file's content: unsaved work
+  /// Path under which a new scene was kept; empty: an unused one is chosen.
+  std::filesystem::path called{};
 };
-/// What assertions of a scene can speak of, to be plotted by name.
+/// The quantities that assertions of a scene can use, for plotting by name.
 struct NamedQuantities {
   std::shared_ptr<const std::vector<std::string>> names;
   std::function<Quantity(const std::string& name)> find;
-  /// These, and those of what is there in a frame besides.
+  /// Returns these quantities together with those of things added since, from a frame.
   std::function<std::shared_ptr<const NamedQuantities>(const Frame&)> with;
 };
 /// A scene ready to be shown.
@@ -40,31 +41,31 @@ struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
   std::string name, title, doc;
   SceneFile file;                          ///< for saving
-  SceneWish wish;                          ///< that it was opened by
-  std::vector<SceneParameter> parameters;  ///< numbers that it declares
-  ViewPoint view;                          ///< where a person looks at it first
-  std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
+  SceneWish wish;                          ///< the wish with which it was opened
+  std::vector<SceneParameter> parameters;  ///< numbers that the scene declares
+  ViewPoint view;                          ///< initial camera
+  std::function<void(RenderScene&)> look;  ///< sets sun, sky and ground; may be empty
   std::optional<MicroscopeSetup> microscope;
-  Overlays overlays;            ///< that it wants to be on
+  Overlays overlays;            ///< overlays that the scene wants
   double trail = 0;             ///< length of the paths behind moving bodies [s]
-  std::vector<BodyNote> notes;  ///< labels and hierarchies that it wants shown
+  std::vector<BodyNote> notes;  ///< labels and hierarchies that the scene wants shown
   std::vector<std::string> warnings;
-  std::shared_ptr<SceneAssertions> assertions;        ///< that it makes; null: none
-  std::shared_ptr<ReplayPlayer> replay;               ///< that is played into it; null: none
-  std::string replay_words;                           ///< about it
-  std::shared_ptr<SceneLesson> lesson;                ///< that it teaches; null: none
+  std::shared_ptr<SceneAssertions> assertions;        ///< the scene's assertions; null: none
+  std::shared_ptr<ReplayPlayer> replay;               ///< replay to play into the world; null: none
+  std::string replay_words;                           ///< text about the replay
+  std::shared_ptr<SceneLesson> lesson;                ///< the scene's lesson; null: none
   std::shared_ptr<const NamedQuantities> quantities;  ///< null: none
-  /// Emitters, sensors, forces and particles, and what they are in the world; null: none.
+  /// Emitters, sensors, forces and particles as described, and their ids in the world; null: none.
   std::shared_ptr<const SceneDescription> parts;
   std::shared_ptr<LiveParts> live_parts;
 };
-/// Parameters that were given other values than the scene's file has.
+/// Parameters whose values differ from those of the scene's file.
 std::vector<SceneEdit> chosen_numbers(const OpenedScene& scene);
-/// Opens a scene. All faults are lines of the error. Must be callable from any thread.
+/// Opens a scene. The error lists all faults, one per line. Must be callable from any thread.
 using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;
 
-/// Opens scenes on a thread of its own, one at a time. Of what is asked for meanwhile only the
-/// newest is opened: the one under way is given up, as it is by destruction.
+/// Opens scenes one at a time on a thread of its own. A new request cancels the one under way, and
+/// so does destruction; of several requests, only the newest is carried out.
 class SceneLoader {
  public:
   SceneLoader() = default;
@@ -78,11 +79,11 @@ class SceneLoader {
   };
 
   void start(SceneOpener open, SceneWish wish);
-  /// A scene is under way, or waits to be taken.
+  /// Whether a scene is being opened, or waits to be taken.
   bool busy() const { return under_way_.valid(); }
-  /// What is being opened, "" when nothing is.
+  /// The scene being opened; "": none.
   const std::string& asked() const { return asked_.scene; }
-  /// Since the newest start() [s].
+  /// Time since the newest start() [s].
   double seconds() const;
   /// The newest scene or its faults, once.
   std::optional<Loaded> take();
@@ -94,7 +95,7 @@ class SceneLoader {
 
   SceneOpener open_;
   SceneWish asked_;
-  bool outdated_ = false;  ///< another scene was asked for since the one under way
+  bool outdated_ = false;  ///< another scene was requested since the one under way
   Clock::time_point since_;
   StopFlag stop_;  ///< of the one under way
   std::future<Result<OpenedScene>> under_way_;

@@ -8,15 +8,17 @@
 
 namespace tumble {
 
-/// The scene that is being opened beside the one that is shown, and why.
+/// The scene that is being opened in the background, and the reason.
 class SceneOpening {
  public:
   struct Cause {
-    std::optional<ChoiceHistory::Step> choice{};  ///< of a person; nothing: to be looked at
-    std::vector<ChoiceHistory::Step> deeds{};     ///< done to the scene before that
-    bool reloads = false;     ///< it is the scene that is shown, written anew by somebody else
-    uint64_t tick = 0;        ///< the moment to be shown, where it is still the same scene
-    bool deeds_lost = false;  ///< some of them are no choices any more
+    /// The user's choice that caused it; none: the scene was chosen for viewing.
+    std::optional<ChoiceHistory::Step> choice{};
+    /// The user's earlier changes to the scene, to be kept in its history.
+    std::vector<ChoiceHistory::Step> deeds{};
+    bool reloads = false;     ///< it is the scene shown, whose file another program has written
+    uint64_t tick = 0;        ///< the tick to show, if it is the same scene
+    bool deeds_lost = false;  ///< some changes could not be turned into choices
   };
   struct Opened {
     SceneWish asked;
@@ -24,19 +26,19 @@ class SceneOpening {
     Cause cause;
   };
 
-  /// In the place of what is being opened.
+  /// Starts opening a scene; one under way is dropped.
   void start(SceneOpener open, SceneWish wish, Cause cause) {
     cause_ = std::move(cause);
     loader_.start(std::move(open), std::move(wish));
   }
-  /// What has been opened, once.
+  /// The opened scene, once.
   std::optional<Opened> take() {
     auto loaded = loader_.take();
     if (!loaded) return std::nullopt;
     return Opened{std::move(loaded->asked), std::move(loaded->scene), std::exchange(cause_, {})};
   }
   bool busy() const { return loader_.busy(); }
-  /// "": nothing.
+  /// Name of the scene being opened; "": none.
   const std::string& asked() const { return loader_.asked(); }
   double seconds() const { return loader_.seconds(); }
 

@@ -69,7 +69,7 @@ Result<StatusFile> StatusFile::create(const std::filesystem::path& path) {
   return out;
 }
 
-/// What the world says now; in a tick that takes long, what it said before.
+/// Queries the world's present values; during a slow tick, the last ones are kept.
 void StatusFile::ask_world(Session& session) {
   constexpr double slow_tick = 0.5;  // [s]
   constexpr std::chrono::milliseconds patience(20);

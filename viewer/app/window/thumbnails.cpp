@@ -22,7 +22,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 namespace {
 
-/// Another number where pictures should look otherwise than those that are kept.
+/// To be increased when thumbnails should look different from cached ones.
 constexpr int look_version = 1;
 constexpr std::chrono::seconds longest_render(120);
 
@@ -42,7 +42,7 @@ int start_render(const fs::path& program, const std::string& scene, const fs::pa
   const int failed = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed) return 0;
-  // The window and its world come first.
+  // The window and its simulation have priority.
   (void)setpriority(PRIO_PROCESS, id_t(process), 5);
   return process;
 }
@@ -62,7 +62,7 @@ Thumbnails::~Thumbnails() {
   fs::remove_all(work_, none);
 }
 
-/// Named by what the scene's file holds: changed, it gets another picture.
+/// Named by the hash of the scene's file, so that a changed scene gets a new thumbnail.
 fs::path Thumbnails::file_of(const SceneItem& item) {
   if (const auto known = files_.find(item.name); known != files_.end()) return known->second;
   fs::path file;
@@ -144,7 +144,7 @@ void Thumbnails::update(const std::vector<SceneItem>& scenes, const std::vector<
     const auto item = std::ranges::find(scenes, name, &SceneItem::name);
     if (item == scenes.end() || item->file.empty()) continue;
     if (name == making_ && process_ > 0) continue;
-    if (load(*item, renderer)) return;  // one a picture
+    if (load(*item, renderer)) return;  // at most one per picture
     if (process_ > 0 || program_.empty()) continue;
     return begin(*item);
   }

@@ -9,14 +9,15 @@ ViewArea::ViewArea(int width_px, int height_px, double scale)
     : width_(width_px / scale), height_(height_px / scale), scale_(scale) {}
 
 SideBySide ViewArea::halves(int from, int to) {
-  constexpr int gap = 2;  // dark, so that one sees where one ends
+  constexpr int gap = 2;  // dark line between the two pictures
   const int width = std::max((to - from - gap) / 2, 1);
   return {from, std::max(to - width, from), width};
 }
 
 ViewArea ViewArea::beside(int width_px, int height_px, double scale, const UiRect& free) {
-  constexpr float margin = 10, gap = 8;  // of panels to the edges of the window, and to the scene
-  constexpr double least = 200;          // narrower than that it stands under the panels
+  // As between panels and the edges of the window or the scene.
+  constexpr float margin = 10, gap = 8;
+  constexpr double least = 200;  // a narrower picture extends below the panels
   ViewArea out(width_px, height_px, scale);
   const double right = double(free.x + free.width);
   double from = free.x > margin ? double(free.x - gap) : 0.0;

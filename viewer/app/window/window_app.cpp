@@ -32,8 +32,8 @@ int complain(const Error& error, int code) {
 
 #ifdef TUMBLE_WINDOW
 
-/// How the three measures of a window relate: window units (what the pointer is given in), pixels,
-/// UI units (what panels are laid out in).
+/// The three units of a window: window units (in which GLFW reports the pointer), pixels, and UI
+/// units (in which panels are laid out).
 struct Measures {
   Application::Picture picture;
   double window_units = 1;  ///< per UI unit
@@ -54,8 +54,8 @@ Measures measure(GLFWwindow* window, double wanted_scale, double zoom = 1) {
   return m;
 }
 
-/// Of the display with the middle of the window; 0: not known [s]. Asks the display, which takes a
-/// moment.
+/// Refresh period of the display that shows the middle of the window; 0: not known [s]. Queries the
+/// display, which takes a moment.
 double display_period(GLFWwindow* window) {
   int x = 0, y = 0, width = 0, height = 0, count = 0;
   glfwGetWindowPos(window, &x, &y);
@@ -74,7 +74,7 @@ double display_period(GLFWwindow* window) {
   return 0;
 }
 
-/// Down to what bar and panels are laid out for.
+/// Sets the least size for which bar and panels can be laid out.
 void limit_size(GLFWwindow* window, double wanted_scale) {
   constexpr double least_width = 360, least_height = 280;  // [UI units]
   const double units = measure(window, wanted_scale).window_units;
@@ -82,15 +82,14 @@ void limit_size(GLFWwindow* window, double wanted_scale) {
                           GLFW_DONT_CARE, GLFW_DONT_CARE);
 }
 
-/// Whoever closes the window does not want to wait for a scene that is still being opened, and not
-/// all of that can be stopped half way (a mesh file is read by others): every file is whole by now,
-/// the rest is the system's to tidy up.
+/// Exits without waiting for a scene that is still being opened, which cannot always be cancelled
+/// (libraries read the mesh files). All files are complete by now; the system releases the rest.
 [[noreturn]] void leave_at_once(int code) {
   std::fflush(nullptr);
   std::_Exit(code);
 }
 
-/// Full screen on the monitor that the window is on, and back to where it was.
+/// Switches to full screen on the monitor that shows the window, and back to the former place.
 class FullScreen {
  public:
   void set(GLFWwindow* window, bool on) {
@@ -120,7 +119,8 @@ class FullScreen {
   int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
 };
 
-/// Without vertical synchronisation (virtual displays) the loop would take a whole core.
+/// Limits the frame rate: without vertical synchronisation (virtual displays) the loop would use a
+/// whole core.
 class Pace {
  public:
   double next() {
@@ -133,8 +133,8 @@ class Pace {
     was_away_ = wall - std::exchange(wall_, wall) > std::chrono::seconds(2);
     return std::min(dt, 1.0);
   }
-  /// So long passed before the last next() that the machine may have slept. By the clock on the
-  /// wall: the steady one stands still meanwhile.
+  /// Whether so much time passed before the last next() that the machine may have been suspended.
+  /// Measured by the wall clock, since the steady clock stops during a suspend.
   bool was_away() const { return was_away_; }
 
  private:

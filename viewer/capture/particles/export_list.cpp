@@ -33,7 +33,7 @@ ListJson record_json(const ExportRecord& record, const ExportList& list) {
   return out;
 }
 
-/// Throws nlohmann::json::exception for what is no record.
+/// Throws nlohmann::json::exception if the value is not a valid record.
 ExportRecord record_of(const ListJson& json) {
   const auto hash = [](const ListJson& text) {
     const auto digits = text.get<std::string>();
@@ -99,7 +99,7 @@ Status write_export_list(const std::filesystem::path& folder, const ExportList& 
                   {"frames_wanted", list.frames_wanted},
                   {"complete", list.frames.size() >= list.frames_wanted},
                   {"frames", ListJson::array()}};
-  // One frame a line: readable, and a third of the size.
+  // One frame per line: readable, and a third of the size of fully indented JSON.
   std::string text = out.dump(2, ' ', false, ListJson::error_handler_t::replace);
   std::string lines = "[";
   for (const ExportRecord& record : list.frames)

@@ -8,7 +8,7 @@ ParticleSample sample_particles(const ParticleSystem& p) {
 
 ParticleSample sample_particles(const ParticleSystem& from, const ParticleSystem& to, double s) {
   ParticleSample out = sample_particles(to);
-  size_t then = 0;  // the place of the same particle in the tick before
+  size_t then = 0;  // index of the same particle in the tick before
   for (size_t i = 0; i < to.size(); ++i) {
     while (then < from.size() && from.id[then] < to.id[i]) ++then;
     if (then == from.size() || from.id[then] != to.id[i]) continue;

@@ -3,8 +3,8 @@
 
 namespace tumble {
 
-/// The particles of a system at one moment, as files tell of them. Index i of every array is the
-/// same particle; ids ascend.
+/// The particles of a system at one time, as written to files. Index i of every array is the same
+/// particle; ids ascend.
 struct ParticleSample {
   std::vector<Vec3> x;         ///< [m]
   std::vector<Vec3> v;         ///< [m/s]
@@ -17,12 +17,12 @@ struct ParticleSample {
   size_t size() const { return x.size(); }
 };
 
-/// A system as it is.
+/// The present state of a system.
 ParticleSample sample_particles(const ParticleSystem& system);
-/// Between two ticks of a system, `s` of the way from the first to the second: positions,
-/// velocities and ages go straight from one to the other, in periodic boxes by the shortest way;
-/// all else is the later one's. Who was born between the two is as at the end, and who died is
-/// missing: as in pictures.
+/// Interpolates between two ticks of a system at the fraction `s` of the way: positions, velocities
+/// and ages linearly, in periodic boxes along the shortest way; all else is taken from the later
+/// tick. A particle born between the two has its state at the later tick, and one that died is left
+/// out, as in pictures.
 ParticleSample sample_particles(const ParticleSystem& from, const ParticleSystem& to, double s);
 
 }  // namespace tumble

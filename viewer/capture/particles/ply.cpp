@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Puts a value's bytes at `at` and goes on behind them.
+/// Writes the bytes of a value at `at` and advances it.
 template <class T>
 void put(char*& at, const T& value) {
   std::memcpy(at, &value, sizeof value);
@@ -24,7 +24,7 @@ void put(char*& at, const Vec3& v) {
   for (int k = 0; k < 3; ++k) put(at, v[k]);
 }
 
-/// A part of a linear colour in sRGB (IEC 61966-2-1), 0 to 255; what is brighter than 1 is 255.
+/// A component of a linear colour as an sRGB byte (IEC 61966-2-1); values above 1 give 255.
 uint8_t srgb_byte(float linear) {
   const double c = std::clamp(double(linear), 0.0, 1.0);
   const double coded = c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;

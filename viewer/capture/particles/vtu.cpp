@@ -14,7 +14,7 @@ constexpr std::string_view vtk_head =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
     "header_type=\"UInt64\">\n";
 
-/// An inline array: length in bytes and content, encoded as one.
+/// Adds an inline array: its length in bytes and its content, encoded together.
 template <class T>
 void add_array(std::string& out, std::string_view type, std::string_view name, int components,
                std::span<const T> values) {
@@ -39,7 +39,7 @@ void add_numbers(std::string& out, std::string_view name, const std::vector<doub
   add_array<double>(out, "Float64", name, 1, values);
 }
 
-/// A vertex cell for every point: programs draw cells and not points.
+/// Adds a vertex cell for every point, because programs draw cells, not points.
 void add_cells(std::string& out, size_t count) {
   constexpr uint8_t vertex_cell = 1;  // VTK_VERTEX
   std::vector<int64_t> point(count), end(count);

@@ -17,7 +17,7 @@ using StatesJson = nlohmann::ordered_json;
 
 constexpr size_t most_state_bytes = size_t{1} << 36;
 
-/// Throws nlohmann::json::exception for what is no text.
+/// Throws nlohmann::json::exception if the value is not a text.
 uint64_t hash_in(const StatesJson& text) {
   const auto digits = text.get<std::string>();
   uint64_t value = 0;
@@ -25,7 +25,7 @@ uint64_t hash_in(const StatesJson& text) {
   return value;
 }
 
-/// Throws nlohmann::json::exception for what is no list.
+/// Throws nlohmann::json::exception if the value is not a valid list.
 StateList list_of(const StatesJson& json) {
   StateList out;
   out.version = json.at("version").get<std::string>();
@@ -46,7 +46,7 @@ StateList list_of(const StatesJson& json) {
   return out;
 }
 
-/// Positive, and within what the times of frames are counted in.
+/// Positive, and within the range of the integers used for times of frames.
 bool is_term(int64_t number) {
   return number > 0 && number <= greatest_term;
 }

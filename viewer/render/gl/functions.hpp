@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-// Every OpenGL function that is called. Loaded through the context, because a GL library linked
-// into the program would serve whichever context came first, and do nothing for the others.
+// Every OpenGL function that is called. They are loaded through the context: a GL library linked
+// into the program would belong to one kind of context and do nothing for the others.
 #define TUMBLE_GL_FUNCTIONS(X)                                        \
   X(ActiveTexture, ACTIVETEXTURE)                                     \
   X(AttachShader, ATTACHSHADER)                                       \

@@ -83,7 +83,7 @@ class GlDevice final : public Device {
   }
   void destroy(TargetId id) override {
     draw_put_off();
-    const bool in_use = open_ && id == pass_.target;  // the ledger refuses that
+    const bool in_use = open_ && id == pass_.target;  // the ledger rejects that
     if (ledger_.find(id) && !in_use) release_gl_target(gl_, ledger_, id);
     ledger_.remove(id);
   }
@@ -119,7 +119,8 @@ class GlDevice final : public Device {
  private:
   void begin_put_off();
   void draw_now(const DrawCall& call);
-  /// Catches up with the open pass: what it draws with is about to change, or it ends.
+  /// Executes the deferred draws of the open pass, since their inputs are about to change or the
+  /// pass ends.
   void draw_put_off(bool also_none = false) {
     if (!open_ || (put_off_.empty() && !also_none)) return;
     if (!begun_) begin_put_off();
@@ -161,9 +162,9 @@ class GlDevice final : public Device {
   PassDesc pass_;  ///< the open one
   bool open_ = false, begun_ = false;
   std::vector<DrawCall> put_off_;  ///< calls of the open pass
-  Status link_failure_;            ///< the first since it was asked for
+  Status link_failure_;            ///< the first since take_link_failure() was called
   int pass_height_ = 0;
-  std::vector<uint8_t> rows_;  ///< of a read-back, bottom row first
+  std::vector<uint8_t> rows_;  ///< scratch of a read-back, bottom row first
 };
 
 TextureId GlDevice::create_texture(TextureFormat format, int width, int height,

@@ -29,8 +29,9 @@ GLenum gl_type(AttributeType t) {
 }
 
 struct BlendFactors {
-  GLenum drawn, there;                          ///< of colours
-  GLenum there_alpha = GL_ONE_MINUS_SRC_ALPHA;  ///< of what is left; what is drawn adds nothing
+  GLenum drawn, there;  ///< factors of the source (fragment) and destination (target) colours
+  GLenum there_alpha = GL_ONE_MINUS_SRC_ALPHA;  ///< factor of the target's alpha (transmittance);
+                                                ///< the fragment adds none
 };
 BlendFactors blend_factors(const PipelineDesc& desc) {
   switch (desc.blend) {
@@ -128,7 +129,8 @@ void GlPrograms::release(unsigned name) {
 
 void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program) {
   gl.UseProgram(program);
-  // The alpha that says which samples are covered is not what those leave, which is nothing.
+  // With alpha to coverage, the alpha decides which samples are covered; what those store is
+  // transmittance 0, not that alpha.
   const bool blends = desc.blend != Blend::none || desc.alpha_to_coverage;
   enable(gl, GL_BLEND, blends);
   if (blends) {

@@ -10,9 +10,8 @@
 
 namespace tumble {
 
-/// The programs of a device. Pipelines of the same sources share one; it is linked when something
-/// is first drawn with it, since linking is most of what a start costs and few scenes need them
-/// all.
+/// The programs of a device. Pipelines of the same sources share one. A program is linked at its
+/// first draw, because linking takes most of the start-up time and few scenes need all programs.
 class GlPrograms {
  public:
   explicit GlPrograms(const GlFunctions& gl) : gl_(gl) {}
@@ -20,12 +19,13 @@ class GlPrograms {
   GlPrograms(const GlPrograms&) = delete;
   GlPrograms& operator=(const GlPrograms&) = delete;
 
-  /// Compiles what is new. Fails with the driver's log. Returns the program's name.
+  /// Compiles shaders that are new. Returns the program's name (handle); fails with the driver's
+  /// log.
   Result<unsigned> add(const PipelineDesc& desc);
-  /// Links, and binds samplers to units and uniform blocks to points in the order of the
-  /// description. Does nothing the second time but give back the failure, if it was one.
+  /// Links, and binds samplers to units and uniform blocks to binding points in the order of the
+  /// description. Later calls only return the outcome of the first.
   Status link(unsigned program);
-  /// Once for each add.
+  /// To be called once for each add().
   void release(unsigned program);
 
  private:
@@ -46,7 +46,7 @@ class GlPrograms {
 /// Sets blending, depth, culling and write masks, and binds the program.
 void apply_gl_pipeline(const GlFunctions& gl, const PipelineDesc& desc, unsigned program);
 
-/// Points the attributes of one slot into the buffer that is bound to GL_ARRAY_BUFFER.
+/// Describes the attributes of one slot in the buffer that is bound to GL_ARRAY_BUFFER.
 void apply_gl_attributes(const GlFunctions& gl, const PipelineDesc& desc, int slot,
                          size_t byte_offset);
 void disable_gl_attributes(const GlFunctions& gl, const PipelineDesc& desc);

@@ -4,8 +4,9 @@
 
 namespace tumble {
 
-/// Makes textures, renderbuffers and framebuffer of a target and stores their names in the records.
-/// Fails when the driver calls the framebuffer incomplete; release_gl_target frees what was made.
+/// Makes textures, renderbuffers and framebuffer of a target and stores their names in the ledger's
+/// records. Fails if the driver reports an incomplete framebuffer; release_gl_target then frees
+/// what was made.
 Status make_gl_target(const GlFunctions& gl, DeviceLedger& ledger, TargetId id, int max_samples);
 void release_gl_target(const GlFunctions& gl, DeviceLedger& ledger, TargetId id);
 

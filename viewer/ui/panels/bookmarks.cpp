@@ -14,7 +14,7 @@ std::string tick_time(const PanelContext& context, uint64_t tick) {
   return fmt::format("{:.2f} s", context.model.clock->time_of(tick));
 }
 
-constexpr float in_row = 0;  ///< height of a button beside fields and words: theirs
+constexpr float in_row = 0;  ///< a button as high as the fields and text beside it
 
 void draw_bookmark(PanelContext& context, const Bookmark& bookmark, size_t index) {
   ImGui::PushID(int(index));
@@ -68,7 +68,8 @@ std::string words_for(const std::string& followed) {
   return followed.empty() ? std::string("stands") : "with " + followed;
 }
 
-/// What a key moves along with: to be chosen at its moment, when it is known where that is.
+/// Choice of the body that a key follows; possible only at the key's time, when the body's pose is
+/// known.
 void draw_followed(PanelContext& context, const FlightKeyView& key, size_t index, bool here,
                    float width) {
   const std::string now = words_for(key.follow);
@@ -77,7 +78,8 @@ void draw_followed(PanelContext& context, const FlightKeyView& key, size_t index
     note(shortened(now, width));
     return;
   }
-  constexpr size_t most = 60;  // of a heap the selected one is offered
+  // List at most this many bodies; in a larger scene only the selected one is offered.
+  constexpr size_t most = 60;
   std::vector<std::string> names = {""};
   const Frame& frame = *context.model.frame;
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {

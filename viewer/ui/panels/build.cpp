@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// A word that is lit while it is what clicks build; pressed again it is put down.
+/// A button that is lit while clicks create this; pressed again, it ends building.
 void choice_button(PanelContext& context, const std::string& name, std::string_view doc,
                    const decltype(BuildChoice::what)& what, float width) {
   auto& building = context.state.building;
@@ -31,7 +31,7 @@ void choice_button(PanelContext& context, const std::string& name, std::string_v
   tooltip_with_key(context, doc, {});
 }
 
-/// Two in a line.
+/// Lays out buttons two in a line.
 class Pairs {
  public:
   Pairs() : width_(0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x)) {}
@@ -61,7 +61,7 @@ void draw_bodies(PanelContext& context) {
                     NewBody{i}, pairs.next());
 }
 
-/// A mesh from a file, placed as other bodies are.
+/// Choice of a mesh file; its bodies are placed like others.
 void draw_meshes(PanelContext& context) {
   section(context, "Meshes from files");
   UiState& state = context.state;

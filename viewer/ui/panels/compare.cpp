@@ -16,19 +16,19 @@
 namespace tumble {
 namespace {
 
-/// A value of a file as people read it: names without quotes.
+/// A JSON value for display: names without quotes.
 std::string plain(const std::string& value) {
   if (value.empty()) return "the best";
   if (value.front() != '"') return value;
   return words_of(value.substr(1, value.size() - 2));
 }
 
-/// What only one of the two worlds has is nowhere in the other.
+/// Distance for display; infinite if only one of the worlds has the body.
 std::string apart_text(double distance) {
   return std::isfinite(distance) ? quantity_text(distance, "m") : std::string("in one world only");
 }
 
-/// In what the two differ, a line each: A's value, then B's.
+/// Draws the differences in settings, one line each: A's value, then B's.
 void draw_choices(PanelContext& context, const WorldComparison& c) {
   if (c.differences.empty()) return note("Nothing is chosen otherwise for B yet: see below.");
   small_text(context, "A and B differ in", palette::accent);
@@ -104,7 +104,7 @@ void draw_view_choice(PanelContext& context) {
   }
 }
 
-/// What kernels and threads compute B with.
+/// Draws the choice of B's instruction set and number of threads; true if one was changed.
 bool draw_machine(PanelContext& context, WorldChoice& choice) {
   bool changed = draw_threads_slider(context, "compare.threads", choice.threads);
   static const std::vector<std::string> targets = simd_targets();
@@ -153,7 +153,8 @@ WorldChoice choice_of_a(const UiModel& model) {
 
 }  // namespace
 
-/// World A is the one that is shown; B is drawn as a ghost in its picture, or beside it.
+/// Draws the panel. World A is the one shown; B is drawn transparently in its picture, or beside
+/// it.
 void draw_compare_panel(PanelContext& context) {
   const WorldComparison* c = context.model.comparison;
   if (!c) {
@@ -175,7 +176,7 @@ void draw_compare_panel(PanelContext& context) {
   changed = draw_machine(context, choice) || changed;
   section(context, "Settings of B");
   changed = draw_settings_form(context, "compare", choice.settings) || changed;
-  // B begins anew: from what A is now, or with A from the start.
+  // B is restarted: as a copy of A's present state, or together with A from the start.
   if (changed) context.ask(Compare{std::move(choice)});
 }
 

@@ -55,7 +55,7 @@ void draw_names(PanelContext& context, const ContactView& view) {
   ImGui::PopFont();
 }
 
-/// The cone of friction from above, its rim at the edge, and where in it the force is.
+/// The friction cone seen along the normal: its rim is the circle, the dot the contact force.
 void draw_cone(PanelContext& context, const ContactCertificate& c, float size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy(ImVec2(size, size));
@@ -107,7 +107,7 @@ void draw_gap(PanelContext& context, const ContactCertificate& c, bool accelerat
   if (accelerations) value_row("and gains", quantity_text(c.normal_acceleration, "m/s²"));
 }
 
-/// Small figures for people who look for the exponent: "3.1e-16".
+/// Residuals with two figures and the exponent: "3.1e-16".
 std::string residual_text(double value) {
   return value == 0 ? "0" : fmt::format("{:.1e}", value);
 }

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-/// How an overlay is called on a switch, and the key that flips it.
+/// Label of an overlay's switch, and the key that toggles it.
 struct Label {
   std::string_view overlay;
   const char* text;
@@ -30,7 +30,7 @@ constexpr Label labels[] = {
     {"islands", "Islands and sleep", std::nullopt},
 };
 
-/// Kind and level of the hierarchy that is shown.
+/// Choice of kind and level of the hierarchy shown.
 void draw_hierarchy_choice(PanelContext& context) {
   Overlays& overlays = context.state.overlays;
   ImGui::Indent(40);
@@ -58,7 +58,7 @@ void draw_hierarchy_choice(PanelContext& context) {
   ImGui::Unindent(40);
 }
 
-/// How long arrows are; the legend says what a metre of them is.
+/// Choice of the length of arrows; the legend gives their scale.
 void draw_vector_length(PanelContext& context) {
   constexpr double least = 0.02, most = 50;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);

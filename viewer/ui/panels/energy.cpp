@@ -62,7 +62,8 @@ void draw_energies(PanelContext& context, std::span<const History::Sample> sampl
   plot_with_legend(context, "energy.plot", times, curves, values, 124);
 }
 
-/// What took or gave energy since the left end of the plot; causes that did nothing are left out.
+/// Draws the energy added or removed by each cause since the left end of the plot; causes that did
+/// nothing are left out.
 void draw_ledger(PanelContext& context, std::span<const History::Sample> samples,
                  std::span<const double> times) {
   const Ledger* ledger = context.model.frame->ledger.get();
@@ -79,7 +80,7 @@ void draw_ledger(PanelContext& context, std::span<const History::Sample> samples
   std::vector<Curve> curves;
   std::vector<double> values;
   for (size_t i = 0; i < lines.size(); ++i) {
-    if (!(most[i] > 1e-9f * greatest)) continue;  // nothing, or what rounding left
+    if (!(most[i] > 1e-9f * greatest)) continue;  // zero up to rounding
     values.push_back(double(lines[i].back()));
     if (i < ledger_lines)
       curves.push_back({ledger_line_name(LedgerLine(i)),

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// More lines than these nobody reads; a filter finds the others.
+/// Greatest number of lines shown; others can be found with a filter.
 constexpr size_t most_shown_events = 200;
 
 void draw_kind(PanelContext& context, EventFilter& filter) {

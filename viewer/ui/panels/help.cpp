@@ -38,7 +38,8 @@ void draw_group(PanelContext& context, std::string_view group) {
         key_cap(context, chord_text(same));
         ImGui::SameLine(0, 4);
       }
-    if (ImGui::GetCursorPosX() > doc_at) ImGui::NewLine();  // several chords need the line
+    // Several chords take a line of their own.
+    if (ImGui::GetCursorPosX() > doc_at) ImGui::NewLine();
     ImGui::SetCursorPosX(doc_at);
     note(b.doc);
     context.host.mark(fmt::format("help.{}", chord_text(b)));
@@ -52,7 +53,8 @@ std::vector<std::string_view> groups() {
   return out;
 }
 
-/// Which column each group goes to, in order, so that the longest column is as short as can be.
+/// Distributes groups of lines over columns in order, so that the longest column is as short as
+/// possible.
 std::vector<int> spread(const std::vector<int>& lines, int columns) {
   std::vector<int> column_of(lines.size());
   for (int limit = *std::max_element(lines.begin(), lines.end());; ++limit) {
@@ -87,7 +89,7 @@ void draw_help_panel(PanelContext& context) {
   constexpr float least_column = 225;
   const float width = ImGui::GetContentRegionAvail().x;
   const int columns = std::clamp(int(width / least_column), 1, 5);
-  // Groups in order, the mouse with its small print last.
+  // Groups in order; the mouse and its notes come last.
   const std::vector<std::string_view> keys = groups();
   const auto lines_of = [](std::string_view group) {
     return 2 + int(std::count_if(all_bindings().begin(), all_bindings().end(),

@@ -44,7 +44,7 @@ void draw_motion(PanelContext& context, const BodyFrame& body, const BodyInfo& i
   }
 }
 
-/// While the definition is not known yet.
+/// Shown until the definition of the body is known.
 void draw_shapes(PanelContext& context, const BodyInfo& info) {
   section(context, info.shapes.size() == 1 ? "Shape" : "Shapes");
   constexpr size_t most = 4;
@@ -95,7 +95,7 @@ void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other, si
                    {});
 }
 
-/// Of one height whatever touches, so that nothing below it moves while the scene runs.
+/// Draws the contacts in a fixed height, so that nothing below moves while the scene runs.
 void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
   std::vector<const ContactFrame*> own;
   frame.for_contacts([&](const ContactFrame& c) {

@@ -6,8 +6,7 @@
 
 namespace tumble {
 
-/// What the colours of the overlays mean that are switched on; at the foot of the scene, on the
-/// left.
+/// Draws the meaning of the colours of the overlays that are on, at the lower left of the scene.
 void draw_legend(PanelContext& context, const UiRect& area) {
   std::vector<LegendLine> lines;
   for (const OverlayEntry& entry : all_overlays())

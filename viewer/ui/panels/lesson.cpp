@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// A dot for each page: a click turns to it.
+/// Draws a dot for each page; a click shows that page.
 void draw_progress(PanelContext& context, const LessonView& lesson) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const size_t count = lesson.steps.size();

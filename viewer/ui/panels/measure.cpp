@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-/// More answers to a search than these are not read: one more letter finds them.
+/// Greatest number of search results shown; typing more letters narrows the search.
 constexpr size_t most_found = 8;
 
 void draw_choice(PanelContext& context) {
@@ -27,7 +27,7 @@ void draw_choice(PanelContext& context) {
   if (ImGui::BeginCombo("##quantity", "plot ...", ImGuiComboFlags_HeightLarge)) {
     for (const Quantity& q : choices) {
       if (ImGui::Selectable(q.name.c_str())) context.ask(AddCurve{q});
-      std::string name = "measure." + q.name;  // in one word, for scripts
+      std::string name = "measure." + q.name;  // one word, for scripts
       std::ranges::replace(name, ' ', '_');
       context.host.mark(name);
     }
@@ -36,7 +36,7 @@ void draw_choice(PanelContext& context) {
   context.host.mark("measure.choose");
 }
 
-/// The names that answer a search, the best first.
+/// The names that match a search, best first.
 std::vector<std::string> found_names(const std::vector<std::string>& names,
                                      const std::string& search) {
   std::vector<std::pair<int, const std::string*>> scored;
@@ -48,7 +48,7 @@ std::vector<std::string> found_names(const std::vector<std::string>& names,
   return out;
 }
 
-/// Anything that assertions of the scene can speak of.
+/// Search over all quantities that assertions of the scene can use.
 void draw_search(PanelContext& context) {
   if (!context.model.quantity_names) return;
   std::string& search = context.state.plot.search;
@@ -59,7 +59,7 @@ void draw_search(PanelContext& context) {
   if (search.empty()) return;
   PlotChoice& plot = context.state.plot;
   const auto& names = context.model.quantity_names;
-  // Scenes have many thousands of names: not in every picture.
+  // Scenes can have many thousands of names, so the search is not repeated for every picture.
   if (plot.found_by != search || plot.found_in != names) {
     plot.found = found_names(*names, search);
     plot.found_by = search;
@@ -78,7 +78,7 @@ void draw_search(PanelContext& context) {
   search.clear();
 }
 
-/// The past of curves that were added late, while it is being computed.
+/// Draws the progress of computing the past of curves that were added late.
 void draw_past(PanelContext& context) {
   const auto& share = context.model.past_share;
   if (!share) return;
@@ -96,7 +96,7 @@ PlottedCurve curve_of(const Measures::Series& series, size_t index) {
           palette::series[index % palette::series_count], series.at, series.values};
 }
 
-/// Whole numbers of things have no digits behind the point.
+/// Counts have no decimals.
 std::string value_text(double value, const std::string& unit) {
   const bool whole = unit.empty() && std::abs(value) < 1e6 && value == std::rint(value);
   return whole ? fmt::format("{:.0f}", value) : quantity_text(value, unit);
@@ -135,7 +135,7 @@ void draw_form(PanelContext& context) {
   ImGui::NewLine();
 }
 
-/// Which curve an axis of the phase plot has.
+/// Draws the choice of the curve for an axis of the phase plot.
 void draw_axis_choice(PanelContext& context, const char* label, const char* name, size_t& index) {
   const auto& all = context.model.measures->series();
   index = std::min(index, all.size() - 1);
@@ -200,7 +200,7 @@ void draw_measure_panel(PanelContext& context) {
   tooltip_with_key(context, "a picture of the plot, into the folder of screenshots", {});
 }
 
-/// The plot alone, over a whole picture.
+/// Draws only the plot, over a whole picture.
 void draw_plot_page(PanelContext& context, float width, float height) {
   const auto& all = context.model.measures->series();
   if (all.empty()) return;

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// What a sensor says at this moment, beside its name.
+/// The present reading of a sensor.
 std::string reading(const Frame& frame, const std::string& name) {
   if (!frame.sensors) return {};
   for (const SensorFrame& sensor : *frame.sensors) {
@@ -28,7 +28,7 @@ std::string reading(const Frame& frame, const std::string& name) {
   return {};
 }
 
-/// The curve of a radial distribution.
+/// Draws the curve of a radial distribution function.
 void draw_curve(PanelContext& context, const std::string& name) {
   if (!context.model.frame->sensors) return;
   for (const SensorFrame& sensor : *context.model.frame->sensors) {

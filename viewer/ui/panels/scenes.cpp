@@ -29,11 +29,12 @@ std::vector<const SceneItem*> matching(const UiModel& model, const std::string& 
   };
   std::vector<Hit> hits;
   for (const SceneItem& item : *model.scenes) {
-    // Who searches wants to find it wherever it is.
+    // A search covers all categories.
     if (search.empty() && !category.empty() && item.category != category) continue;
     const auto by_name = fuzzy_score(search, item.name);
     const auto by_title = fuzzy_score(search, item.title);
-    // Letters in order are found in any sentence: there the words must stand as they are.
+    // Fuzzy matching would find some match in almost any sentence, so descriptions must contain the
+    // search literally.
     if (!by_name && !by_title && !contains(item.doc, search)) continue;
     constexpr int by_doc = -1000;
     hits.push_back({&item, std::max(by_name.value_or(by_doc), by_title.value_or(by_doc))});
@@ -47,7 +48,7 @@ std::vector<const SceneItem*> matching(const UiModel& model, const std::string& 
 
 constexpr float picture_width = 96, picture_height = 54, item_height = 62;
 
-/// The picture of a scene, or a place for it.
+/// Draws the thumbnail of a scene, or an empty frame.
 void draw_picture(PanelContext& context, const SceneItem& item, ImVec2 at) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + picture_width, at.y + picture_height);
@@ -79,7 +80,7 @@ bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
   list.AddText({x, at.y + 6}, current ? palette::accent : palette::text, title.c_str());
   const float title_end = x + ImGui::CalcTextSize(title.c_str()).x + 10;
   ImGui::PushFont(context.host.fonts().small);
-  // The name is what the command line takes.
+  // The name is shown because the command line takes it.
   const float name_width = ImGui::CalcTextSize(item.name.c_str()).x;
   if (!item.title.empty() && title_end + name_width < x + room)
     list.AddText({x + room - name_width, at.y + 8}, palette::faint, item.name.c_str());
@@ -89,7 +90,7 @@ bool draw_item(PanelContext& context, const SceneItem& item, bool chosen) {
   return clicked;
 }
 
-/// A word for each category, and one for all: a click narrows the list.
+/// Draws a word for each category, and one for all; a click narrows the list.
 void draw_categories(PanelContext& context) {
   std::vector<std::string> all = {""};
   for (const SceneItem& item : *context.model.scenes)
@@ -114,7 +115,7 @@ void draw_categories(PanelContext& context) {
       context.state.search_cursor = 0;
     }
     ImGui::PopStyleColor(2);
-    std::string name = text;  // in one word, for scripts
+    std::string name = text;  // one word, for scripts
     std::replace(name.begin(), name.end(), ' ', '_');
     context.host.mark("scenes.category." + name);
   }
@@ -205,7 +206,7 @@ void draw_scenes_panel(PanelContext& context) {
   ImGui::Dummy(ImVec2(0, 2));
   if (items.empty())
     note(context.model.scenes->empty() ? "There are no scenes here." : "No scene has such a name.");
-  // The list scrolls and not the panel around it, also in a low window.
+  // The list scrolls, not the panel around it, even in a low window.
   const float list_height = std::min(float(count) * (item_height + 2), list_room());
   ImGui::BeginChild("##list", ImVec2(0, std::max(list_height, 1.0f)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 2));

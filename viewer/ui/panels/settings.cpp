@@ -18,7 +18,7 @@ void draw_quality(PanelContext& context) {
   tooltip_with_key(context, "automatic: a draft where a better one would not be fluent", {});
 }
 
-/// The numbers that the scene declares. The scene is opened anew once one is let go.
+/// Draws the numbers that the scene declares. When a slider is released, the scene is opened anew.
 void draw_parameters(PanelContext& context) {
   if (!context.model.parameters || context.model.parameters->empty()) return;
   small_text(context, "scene", palette::accent);

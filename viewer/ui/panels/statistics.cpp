@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Stages as bars of one scale, the longest full.
+/// Draws the times of the stages as bars with a common scale, on which the longest is full.
 void draw_profile(PanelContext& context) {
   const History& history = *context.model.history;
   double longest = 1e-9;
@@ -48,7 +48,7 @@ void draw_step_plot(PanelContext& context) {
     curves[0].values.push_back(float(s.step_seconds));
     greatest = std::max(greatest, float(s.step_seconds));
   }
-  // The budget of real time is only shown where it is near.
+  // The tick (budget for real time) is only shown if the step time comes near it.
   if (greatest > 0.3f * tick) curves[1].values.assign(curves[0].values.size(), tick);
   plot(context, "statistics.plot", times, curves, 66, "s");
 }

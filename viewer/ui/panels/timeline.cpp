@@ -12,7 +12,7 @@ namespace {
 
 constexpr float margin = 12, height = 40, widest = 760;
 
-/// Where a tick is on the line.
+/// Maps ticks to positions on the time line.
 struct Scale {
   float left = 0, right = 1;
   uint64_t first = 0, last = 1;
@@ -27,7 +27,7 @@ struct Scale {
   }
 };
 
-/// Ticks in which something happened that the filter of the list takes.
+/// Marks the ticks with events that pass the filter of the list.
 void draw_events(PanelContext& context, const Scale& scale, float y) {
   if (!context.model.events) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -37,7 +37,7 @@ void draw_events(PanelContext& context, const Scale& scale, float y) {
     if (e.tick < scale.first || e.tick > scale.last) continue;
     if (!context.state.event_filter.takes(e)) continue;
     const float x = scale.at(e.tick);
-    if (x < last + 1) continue;  // one mark a pixel
+    if (x < last + 1) continue;  // at most one mark per pixel
     list.AddRectFilled({x - 0.75f, y + 4}, {x + 0.75f, y + 12}, palette::yellow);
     last = x;
     ++marks;
@@ -45,7 +45,7 @@ void draw_events(PanelContext& context, const Scale& scale, float y) {
   context.host.mark(fmt::format("timeline.events.{}", marks));
 }
 
-/// Flags over the line; those that are out of reach are left out.
+/// Draws the bookmarks as flags above the line; those outside of its range are left out.
 void draw_bookmarks(PanelContext& context, const Scale& scale, float y) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto& all = context.model.marks->bookmarks;
@@ -67,7 +67,7 @@ void draw_span(const TickSpan& span, bool on, const Scale& scale, float y) {
   for (const float x : {a, b}) list.AddRectFilled({x - 1, y - 9}, {x + 1, y + 9}, colour);
 }
 
-/// The tick under the pointer; near a bookmark it is that one's.
+/// The tick under the pointer, snapped to a bookmark nearby.
 uint64_t tick_under(const PanelContext& context, const Scale& scale) {
   constexpr float reach = 5;
   const float x = ImGui::GetIO().MousePos.x;
@@ -77,7 +77,7 @@ uint64_t tick_under(const PanelContext& context, const Scale& scale) {
   return scale.tick(x);
 }
 
-/// Shift + drag marks the span that is looped; true while it does.
+/// Shift + drag marks the span to be looped; true while that is going on.
 bool draw_new_span(PanelContext& context, uint64_t under) {
   std::optional<uint64_t>& began = context.state.span_began;
   if (ImGui::IsItemActivated() && ImGui::GetIO().KeyShift) began = under;
@@ -89,7 +89,7 @@ bool draw_new_span(PanelContext& context, uint64_t under) {
   return true;
 }
 
-/// What stands at the ends of the line: a flag that sets a bookmark, a ring that loops.
+/// Buttons at the ends of the line: a flag that sets a bookmark, a ring that loops.
 bool sign_button(PanelContext& context, const char* name, ImVec2 at, bool flag, bool lit,
                  const char* doc, Action action) {
   ImGui::SetCursorScreenPos(at);
@@ -176,7 +176,7 @@ UiRect draw_timeline(PanelContext& context, const UiRect& free_area) {
       if (b.tick == under) text = b.name + ": " + text;
     ImGui::SetTooltip("%s", text.c_str());
   }
-  // The next place is asked for when the last one is there: going far back takes a while.
+  // Only one seek is under way at a time, since going far back takes a while.
   uint64_t& asked = context.state.scrubbed_to;
   if (draw_new_span(context, under) || !ImGui::IsItemActive())
     asked = m.frame->tick;

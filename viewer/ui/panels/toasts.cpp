@@ -22,7 +22,8 @@ uint32_t colour_of(ToastKind kind) {
   return palette::text;
 }
 
-/// Clicks go through to what is under a message. Its cross takes them: it is a window of its own.
+/// Clicks pass through a message to what is below it, except on its close button, which is a window
+/// of its own.
 bool draw_cross(PanelContext& context, size_t index, const UiRect& message) {
   constexpr float size = 20, from_side = 16, from_top = 9;
   ImGui::SetNextWindowPos(
@@ -42,7 +43,7 @@ bool draw_cross(PanelContext& context, size_t index, const UiRect& message) {
   return closed;
 }
 
-/// Draws one message with its foot at `bottom`; returns its height.
+/// Draws one message with its lower edge at `bottom`; returns its height.
 float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect& area,
                  float bottom, bool& closed) {
   const bool error = toast.kind == ToastKind::error;
@@ -57,7 +58,7 @@ float draw_toast(PanelContext& context, Toast& toast, size_t index, const UiRect
                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
-  // Panels under a message would shine through.
+  // Opaque, so that panels below do not show through.
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::page);
   ImGui::Begin(fmt::format("##toast{}", index).c_str(), nullptr, flags);
   ImGui::PopStyleColor();
@@ -87,7 +88,7 @@ constexpr ImGuiWindowFlags notice_flags =
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
     ImGuiWindowFlags_AlwaysAutoResize;
 
-/// A way of many ticks is not one that hangs.
+/// Text for a slow tick, or for a seek over many ticks, which is not a hang.
 std::string words_of_slow_tick(const UiModel& m) {
   const double seconds = std::floor(m.under_way_seconds);
   if (m.way_to >= m.next_tick)
@@ -97,7 +98,8 @@ std::string words_of_slow_tick(const UiModel& m) {
   return fmt::format("Tick {} is under way: {:.0f} s", m.next_tick, seconds);
 }
 
-/// A tick that takes long, or a way of many, and the way out of it. Gives where its foot is.
+/// Message for a slow tick or a long seek, with a button to cancel it. Returns the y of its lower
+/// edge.
 float draw_slow_tick(PanelContext& context, const UiRect& area) {
   const UiModel& m = context.model;
   const float top = area.y + 14;
@@ -119,7 +121,8 @@ float draw_slow_tick(PanelContext& context, const UiRect& area) {
   return top + size.y + 8;
 }
 
-/// A question to the world that takes long, and the way out of it. Gives where its foot is.
+/// Message for a slow query of the world, with a button to cancel it. Returns the y of its lower
+/// edge.
 float draw_slow_question(PanelContext& context, const UiRect& area, float top) {
   const UiModel& m = context.model;
   if (m.asking.empty() || m.asking_seconds < slow_question_seconds) return top;
@@ -143,9 +146,9 @@ float draw_slow_question(PanelContext& context, const UiRect& area, float top) {
   return top + size.y + 8;
 }
 
-/// Tells that a scene is being opened; nobody knows how long that takes, so the bar only moves.
+/// Message that a scene is being opened; the duration is unknown, so the bar only moves.
 void draw_opening(PanelContext& context, const UiRect& area, float top) {
-  constexpr double soon = 0.2;  // [s] what opens faster needs no message
+  constexpr double soon = 0.2;  // [s] no message for what opens faster
   const UiModel& m = context.model;
   if (m.opening.empty() || m.opening_seconds < soon) return;
   ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, top), ImGuiCond_Always,

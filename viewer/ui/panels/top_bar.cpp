@@ -16,10 +16,10 @@ std::string speed_text(double speed) {
   return fmt::format("1/{:.3g}×", 1 / speed);
 }
 
-/// Text in the middle of the bar's height, beside buttons of 30 units.
+/// Text vertically centred in the bar, beside buttons of 30 UI units.
 void bar_text(const std::string& text, uint32_t colour) {
   const float y = ImGui::GetCursorPosY();
-  // ImGui lowers text beside a button by the frame's padding by itself.
+  // ImGui already lowers text beside a button by the frame's padding.
   ImGui::SetCursorPosY(y + 0.5f * (30 - ImGui::GetTextLineHeight()) -
                        ImGui::GetStyle().FramePadding.y);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
@@ -57,7 +57,7 @@ void draw_scene_button(PanelContext& context, float width) {
                    shortcut_of(Action::pick_scene));
 }
 
-/// Buttons of time, as many as there is room for.
+/// Draws the buttons for time, as many as fit.
 void draw_transport(PanelContext& context, const BarPlan& plan) {
   const auto button = [&](const char* name, Icon icon, const char* doc, Action action,
                           bool lit = false) {
@@ -93,8 +93,7 @@ void draw_transport(PanelContext& context, const BarPlan& plan) {
     context.ask(Action::faster);
 }
 
-/// State, time and tick, in the order of what a person would miss first, as far as they end before
-/// `right`.
+/// Draws state, time and tick, the most important first, as far as they end before `right`.
 void draw_clock(PanelContext& context, float right) {
   const UiModel& m = context.model;
   const float y = ImGui::GetCursorPosY();
@@ -171,7 +170,7 @@ void draw_switches(PanelContext& context) {
   }
 }
 
-/// The same switches behind one word.
+/// Draws the same switches as a menu.
 void draw_menu(PanelContext& context) {
   const bool open = ImGui::IsPopupOpen("##menu");
   if (word_button(context, "bar.menu", menu_text, open, "what is shown", {}))
@@ -196,7 +195,7 @@ void draw_top_bar(PanelContext& context, const UiRect& rect) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10, 8));
-  // Over two pictures it would show where each of them ends.
+  // With two pictures, the line shows where each of them ends.
   const bool beside = context.model.comparison && context.state.compared_as == ComparedAs::beside;
   ImGui::SetNextWindowBgAlpha(beside ? 1.0f : ImGui::GetStyleColorVec4(ImGuiCol_WindowBg).w);
   ImGui::Begin("##bar", nullptr,
