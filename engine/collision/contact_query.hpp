@@ -17,7 +17,7 @@ struct ContactQuery {
   /// more candidate points than a manifold holds, these are kept unless others are clearly better.
   std::span<const uint64_t> kept = {};
   /// Manifold::closest of the last query, from which the search for the closest features of two
-  /// polyhedra starts; null if there is none.
+  /// polyhedra starts, and by which meshes stay on their side of open ones; null if there is none.
   const ClosestFeatures* start = nullptr;
   /// If set, and if no contact is found, receives a lower bound on the distance of the shapes, at
   /// least the margin, larger if the search found more [m]. Until they have moved that far relative

@@ -19,7 +19,8 @@ struct ManifoldHead {
   Vec3 normal = Vec3::UnitY();  ///< unit, from A to B, world axes
   /// Distinguishes the manifolds of one pair of shapes (mesh patches).
   uint64_t part = 0;
-  /// Of two polyhedra, for the start of the next query, if the narrow phase finds them.
+  /// Of two polyhedra, for the start of the next query, if the narrow phase finds them; of an open
+  /// mesh, on which side of it the other mesh is (mesh_pairs/open_side.hpp).
   ClosestFeatures closest;
   int count = 0;  ///< number of points
 };

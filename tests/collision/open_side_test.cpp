@@ -3,6 +3,7 @@
 #include "engine/collision/narrow_phase.hpp"
 #include "engine/collision/shapes/polyhedral.hpp"
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/solid/solid_report.hpp"
 #include "tests/collision/support.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ TriangleMesh container() {
 /// contacts there are below a height.
 struct Upwards {
   double least = 1, greatest = -1;
+  double nearest = 1e9;  ///< least gap [m]
   int count = 0;
 };
 Upwards upwards(const Shape& a, const Pose& at, const Shape& b, double height = 1e9) {
@@ -36,6 +38,7 @@ Upwards upwards(const Shape& a, const Pose& at, const Shape& b, double height = 
     for (int i = 0; i < m.count; ++i) {
       if (m.points[size_t(i)].x_world.y() > height) continue;
       ++out.count;
+      out.nearest = std::min(out.nearest, m.points[size_t(i)].gap);
       out.least = std::min(out.least, m.normal.y());
       out.greatest = std::max(out.greatest, m.normal.y());
     }
@@ -111,6 +114,60 @@ TEST_CASE("a box behind one-sided terrain is held there, overlapping or not") {
     const Upwards found = upwards(*cube, {{0.03, -0.1 - gap, 0.02}}, *ground);
     CHECK(found.count > 0);
     CHECK(found.least > 0.5);
+  }
+}
+
+TEST_CASE("a clamp about the rim of a sheet touches it with the tips of both jaws") {
+  const auto sheet = mesh(make_mesh::terrain(4, 8, [](double, double) { return 0.0; }));
+  // Its jaws end in tips .008 m apart, elsewhere they are .06 m apart; the rim is at x = 2.
+  constexpr double h = 0.004;
+  constexpr uint32_t corners = 10;
+  const std::array<Vec2, corners> outline{
+      Vec2(1.8, -0.1),  Vec2(2.2, -0.1), Vec2(2.2, 0.1),   Vec2(1.8, 0.1),    Vec2(1.8, h),
+      Vec2(1.85, 0.03), Vec2(2.1, 0.03), Vec2(2.1, -0.03), Vec2(1.85, -0.03), Vec2(1.8, -h)};
+  TriangleMesh clamp;
+  for (const double z : {-0.1, 0.1})
+    for (const Vec2& p : outline) clamp.vertices.emplace_back(p.x(), p.y(), z);
+  for (const Triangle& t :
+       {Triangle{0, 1, 7}, Triangle{0, 7, 8}, Triangle{0, 8, 9}, Triangle{1, 2, 6},
+        Triangle{1, 6, 7}, Triangle{3, 4, 5}, Triangle{2, 3, 5}, Triangle{2, 5, 6}}) {
+    clamp.triangles.push_back({t[0], t[2], t[1]});
+    clamp.triangles.push_back({t[0] + corners, t[1] + corners, t[2] + corners});
+  }
+  for (uint32_t i = 0; i < corners; ++i) {
+    const uint32_t j = (i + 1) % corners;
+    clamp.triangles.push_back({i, j, j + corners});
+    clamp.triangles.push_back({i, j + corners, i + corners});
+  }
+  REQUIRE(check_solid(clamp).faults.empty());
+  const auto grip = mesh(clamp);
+  for (const double up : {0.0, 0.002, -0.002}) {
+    CAPTURE(up);
+    const Upwards found = upwards(*grip, {{0, up, 0}}, *sheet);
+    CHECK(found.greatest > 0.5);
+    CHECK(found.least < -0.5);
+    CHECK(found.nearest == doctest::Approx(h - std::fabs(up)));
+  }
+}
+
+TEST_CASE("a torus half through a sheet lies where it came from") {
+  const auto sheet = mesh(make_mesh::terrain(4, 8, [](double, double) { return 0.0; }));
+  const auto torus = mesh(make_mesh::torus(0.3, 0.1, 16, 8));
+  for (const double from : {1.0, -1.0}) {
+    CAPTURE(from);
+    std::vector<Manifold> found;
+    ContactQuery query(0.01);
+    ClosestFeatures kept;
+    // The torus is 0.1 m high to either side.
+    for (const double height : {0.105, 0.09, 0.03, 0.0, -0.02}) {
+      CAPTURE(height);
+      found.clear();
+      collide(*torus, {{0.07, from * height, 0.03}, Quat::Identity()}, *sheet, {}, query, found);
+      REQUIRE_FALSE(found.empty());
+      for (const Manifold& m : found) CHECK(m.normal.y() * from < -0.5);
+      kept = found.front().closest;
+      query.start = &kept;
+    }
   }
 }
 

@@ -33,6 +33,9 @@ struct Scratch {
   std::vector<PlacedEdge> edges_a;  ///< of the current triangle
   OwnedEdges edges_b;
   double apart = 0;  ///< bound on the distance of surfaces without near pairs [m]
+  OpenSides sides_a, sides_b;
+  std::vector<TriangleIds> all_pairs, all_crossing;
+  std::vector<FeatureContact> all_contacts;
 };
 
 struct MeshQuery {
@@ -249,13 +252,49 @@ class Arbiter {
   std::vector<FeatureContact>& own_;
 };
 
+/// Leaves the contacts of all pairs in scratch.contacts.
+void find_true_contacts(const MeshQuery& q) {
+  thread_local OverlapContours contours;
+  thread_local OverlapRegions regions;
+  thread_local std::vector<FeatureContact> own;
+  const double least = find_contacts(q);
+  if (stop_requested()) return;
+  if (overlapping(q, least < 0, contours, regions)) {
+    Arbiter(q, regions, own).run();
+  } else if (!contained(q.A, q.B) && !contained(q.B, q.A)) {
+    drop_penetrations(q.scratch.contacts);
+  }
+}
+
+/// The same where an open surface has the other in front of it in one part and behind it in
+/// another: the pairs of each side by themselves.
+template <class Seen>
+void find_contacts_by_sides(Scratch& s, const Seen& seen) {
+  s.all_pairs = s.pairs;
+  s.all_crossing = s.crossing;
+  s.all_contacts.clear();
+  for (const bool a_reversed : {false, true})
+    for (const bool b_reversed : {false, true}) {
+      const auto belongs = [&](const TriangleIds& pair) {
+        return s.sides_a.behind(pair.a, pair.b) == a_reversed &&
+               s.sides_b.behind(pair.b, pair.a) == b_reversed;
+      };
+      s.pairs.clear(), s.crossing.clear(), s.by_b.clear();
+      std::ranges::copy_if(s.all_pairs, std::back_inserter(s.pairs), belongs);
+      std::ranges::copy_if(s.all_crossing, std::back_inserter(s.crossing), belongs);
+      if (s.pairs.empty()) continue;
+      for (const TriangleIds& pair : s.pairs) s.by_b.push_back({pair.b, pair.a});
+      std::sort(s.by_b.begin(), s.by_b.end());
+      find_true_contacts(seen(a_reversed, b_reversed));
+      s.all_contacts.insert(s.all_contacts.end(), s.contacts.begin(), s.contacts.end());
+    }
+  s.contacts.swap(s.all_contacts);
+}
+
 }  // namespace
 
 void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   thread_local Scratch scratch;
-  thread_local OverlapContours contours;
-  thread_local OverlapRegions regions;
-  thread_local std::vector<FeatureContact> own;
   const MeshSurface &a = pair.a.polyhedral()->surface(), &b = pair.b.polyhedral()->surface();
   MeshQuery found{{a, pair.pose_a.q.toRotationMatrix(), pair.pose_a.x},
                   {b, pair.pose_b.q.toRotationMatrix(), pair.pose_b.x},
@@ -275,23 +314,29 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     return;
   }
   const double near = std::max(range.margin, range.reach);
-  const bool a_behind =
-      lies_behind(found.B, found.A, !pair.a.is_mesh(), near, scratch.pairs, scratch.by_b);
-  const bool b_behind =
-      lies_behind(found.A, found.B, !pair.b.is_mesh(), near, scratch.by_b, scratch.pairs);
-  const MeshQuery q{{b_behind ? pair.a.polyhedral()->reversed() : a, found.A.R, found.A.x},
-                    {a_behind ? pair.b.polyhedral()->reversed() : b, found.B.R, found.B.x},
-                    range,
-                    scratch,
-                    pair.hierarchy};
-  const double least = find_contacts(q);
-  if (stop_requested()) return;
-  if (overlapping(q, least < 0, contours, regions)) {
-    Arbiter(q, regions, own).run();
-  } else if (!contained(q.A, q.B) && !contained(q.B, q.A)) {
-    drop_penetrations(scratch.contacts);
+  const auto before = [&](size_t k) {
+    return pair.start ? side_of_feature((*pair.start)[k]) : SurfaceSide::unknown;
+  };
+  OpenSides &of_a = scratch.sides_a, &of_b = scratch.sides_b;
+  of_a.find(found.A, found.B, !pair.b.is_mesh(), near, before(0), scratch.by_b, scratch.pairs);
+  of_b.find(found.B, found.A, !pair.a.is_mesh(), near, before(1), scratch.pairs, scratch.by_b);
+  const auto seen = [&](bool a_reversed, bool b_reversed) {
+    return MeshQuery{{a_reversed ? pair.a.polyhedral()->reversed() : a, found.A.R, found.A.x},
+                     {b_reversed ? pair.b.polyhedral()->reversed() : b, found.B.R, found.B.x},
+                     range,
+                     scratch,
+                     pair.hierarchy};
+  };
+  if (of_a.mixed() || of_b.mixed()) {
+    find_contacts_by_sides(scratch, seen);
+  } else {
+    find_true_contacts(seen(of_a.all_behind(), of_b.all_behind()));
   }
+  if (stop_requested()) return;
+  const size_t first = out.size();
   emit_patches(pair, scratch.contacts, out);
+  for (size_t i = first; i < out.size(); ++i)
+    out[i].closest = {feature_of_side(of_a.side()), feature_of_side(of_b.side())};
 }
 
 }  // namespace tumble

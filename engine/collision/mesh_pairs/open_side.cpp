@@ -1,5 +1,6 @@
 #include "engine/collision/mesh_pairs/open_side.hpp"
 
+#include "engine/collision/mesh_pairs/tolerances.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
 #include "engine/geometry/constructions/closest_points.hpp"
@@ -10,19 +11,8 @@
 namespace tumble {
 namespace {
 
-/// A point is behind a feature if the way to it is within 60 degrees of the feature's normal
-/// reversed: beside the rim of a surface it is on neither side.
-constexpr double least_cosine = 0.5;
-/// A triangle that crosses a plane is behind it if it reaches this many times as far behind it as
-/// in front.
-constexpr double mostly_ratio = 4;
-/// A centre is behind if it is by this many times as much as the shape reaches in front.
-constexpr double clear_ratio = 2;
-
 /// How far nearest features are looked for: all the triangles given.
 constexpr double any_distance = std::numeric_limits<double>::infinity();
-
-enum class SurfaceSide : uint8_t { front, behind, unknown };
 
 /// The other surface in the frame of S.
 class SeenSurface {
@@ -32,15 +22,17 @@ class SeenSurface {
         other_(other.s),
         R_(S.R.transpose() * other.R),
         x_(S.R.transpose() * (other.x - S.x)),
-        touching_(1e-9 * (s_.size + other_.size)) {}
+        touching_(tolerances::touching_share * (s_.size + other_.size)) {}
 
-  /// Of a triangle of the other; `ids` are the triangles of S that are near it. Farther away than
-  /// `reach` it has none: S may be nearer there.
-  SurfaceSide side_of(uint32_t triangle, const std::vector<uint32_t>& ids, double reach) const {
+  /// Of a triangle of the other, and whether it crosses S; `ids` are the triangles of S that are
+  /// near it. Farther away than `reach` it has none: S may be nearer there.
+  SurfaceSide side_of(uint32_t triangle, const std::vector<uint32_t>& ids, double reach,
+                      bool& crosses) const {
     const std::array<Vec3, 3> t = corners(triangle);
     double least = any_distance;
     Vec3 nearest = Vec3::Zero();
-    bool crosses = false, front = false, behind = false;
+    bool front = false, behind = false;
+    crosses = false;
     for (const uint32_t id : ids) {
       const std::array<Vec3, 3> own{s_.mesh->corner(id, 0), s_.mesh->corner(id, 1),
                                     s_.mesh->corner(id, 2)};
@@ -65,12 +57,12 @@ class SeenSurface {
   /// are those of lies_behind().
   bool centre_behind(const NearestFeature& near, const std::vector<TriangleIds>& pairs) const {
     const double depth = near.normal.dot(near.point - centre());
-    if (depth <= least_cosine * near.distance || depth <= touching_) return false;
+    if (depth <= tolerances::least_cosine * near.distance || depth <= touching_) return false;
     double in_front = 0;
     for (const TriangleIds& pair : pairs)
       for (const Vec3& p : corners(pair.a))
         in_front = std::max(in_front, near.normal.dot(p - near.point));
-    return depth > clear_ratio * in_front;
+    return depth > tolerances::clear_ratio * in_front;
   }
 
  private:
@@ -84,7 +76,8 @@ class SeenSurface {
     if (near.triangle == no_index || near.normal.isZero(0)) return SurfaceSide::unknown;
     const double height = near.normal.dot(p - near.point);
     if (height > touching_) return SurfaceSide::front;
-    return height < -least_cosine * near.distance ? SurfaceSide::behind : SurfaceSide::unknown;
+    return height < -tolerances::least_cosine * near.distance ? SurfaceSide::behind
+                                                              : SurfaceSide::unknown;
   }
   SurfaceSide side_of_plane(const std::array<Vec3, 3>& t, uint32_t id) const {
     double front = 0, behind = 0;
@@ -94,7 +87,7 @@ class SeenSurface {
       behind = std::max(behind, -height);
     }
     if (front <= touching_ && behind <= touching_) return SurfaceSide::unknown;
-    return behind > mostly_ratio * front ? SurfaceSide::behind : SurfaceSide::front;
+    return behind > tolerances::mostly_ratio * front ? SurfaceSide::behind : SurfaceSide::front;
   }
 
   const MeshSurface &s_, &other_;
@@ -105,31 +98,94 @@ class SeenSurface {
 
 }  // namespace
 
-bool lies_behind(const PlacedSurface& S, const PlacedSurface& other, bool convex, double reach,
-                 const std::vector<TriangleIds>& pairs, const std::vector<TriangleIds>& swapped) {
-  if (S.s.closed) return false;
-  thread_local std::vector<uint32_t> ids;
+void NearParts::find(const MeshSurface& surface, const std::vector<TriangleIds>& pairs,
+                     bool one_part) {
+  triangles_.clear();
+  for (const TriangleIds& pair : pairs)
+    if (triangles_.empty() || triangles_.back() != pair.a) triangles_.push_back(pair.a);
+  part_.assign(triangles_.size(), 0);
+  if (one_part) return;
+  const auto root = [this](uint32_t i) {
+    while (part_[i] != i) i = part_[i] = part_[part_[i]];
+    return i;
+  };
+  corners_.clear();
+  for (uint32_t i = 0; i < triangles_.size(); ++i) {
+    part_[i] = i;
+    for (const uint32_t v : surface.mesh->triangles[triangles_[i]]) corners_.push_back({v, i});
+  }
+  std::sort(corners_.begin(), corners_.end());
+  for (size_t i = 1; i < corners_.size(); ++i) {
+    if (corners_[i].a != corners_[i - 1].a) continue;
+    const uint32_t x = root(corners_[i].b), y = root(corners_[i - 1].b);
+    part_[std::max(x, y)] = std::min(x, y);
+  }
+  for (uint32_t i = 0; i < part_.size(); ++i) part_[i] = root(i);
+}
+
+OpenSides::Part* OpenSides::find_part(const TriangleIds& parts) {
+  const auto at = std::ranges::lower_bound(parts_, parts, {}, &Part::parts);
+  return at != parts_.end() && at->parts == parts ? &*at : nullptr;
+}
+
+bool OpenSides::behind(uint32_t triangle_of_s, uint32_t triangle_of_other) const {
+  if (parts_.empty()) return false;
+  const TriangleIds parts{own_.part_of(triangle_of_s), others_.part_of(triangle_of_other)};
+  const auto at = std::ranges::lower_bound(parts_, parts, {}, &Part::parts);
+  return at != parts_.end() && at->parts == parts && at->sides == behind_bit;
+}
+
+void OpenSides::find(const PlacedSurface& S, const PlacedSurface& other, bool convex, double reach,
+                     SurfaceSide before, const std::vector<TriangleIds>& pairs,
+                     const std::vector<TriangleIds>& swapped) {
+  found_ = front_bit;
+  side_ = SurfaceSide::unknown;
+  parts_.clear();
+  if (S.s.closed) return;
   const SeenSurface seen(S, other);
+  own_.find(S.s, swapped, convex);
+  others_.find(other.s, pairs, convex);
   NearestFeature of_centre;
   if (convex) {
-    ids.clear();
-    for (const TriangleIds& pair : swapped)
-      if (ids.empty() || ids.back() != pair.a) ids.push_back(pair.a);
-    of_centre = nearest_feature(S.s, seen.centre(), ids, any_distance);
-    if (!of_centre.inside) return false;
+    of_centre = nearest_feature(S.s, seen.centre(), own_.triangles(), any_distance);
+    if (!of_centre.inside) return;
   }
-  bool behind = false;
+  thread_local std::vector<TriangleIds> run;
+  thread_local std::vector<uint32_t> ids;
+  for (const TriangleIds& pair : pairs)
+    parts_.push_back({{own_.part_of(pair.b), others_.part_of(pair.a)}});
+  std::ranges::sort(parts_, {}, &Part::parts);
+  parts_.erase(std::ranges::unique(parts_, {}, &Part::parts).begin(), parts_.end());
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t triangle = pairs[first].a;
-    ids.clear();
+    run.clear();
     for (; first < pairs.size() && pairs[first].a == triangle; ++first)
-      ids.push_back(pairs[first].b);
-    charge_work(ids.size(), 1000);
-    const SurfaceSide side = seen.side_of(triangle, ids, reach);
-    if (side == SurfaceSide::front) return convex && seen.centre_behind(of_centre, pairs);
-    behind |= side == SurfaceSide::behind;
+      run.push_back({own_.part_of(pairs[first].b), pairs[first].b});
+    std::sort(run.begin(), run.end());
+    charge_work(run.size(), 1000);
+    for (size_t i = 0; i < run.size();) {
+      const uint32_t part = run[i].a;
+      ids.clear();
+      for (; i < run.size() && run[i].a == part; ++i) ids.push_back(run[i].b);
+      bool crosses = false;
+      const SurfaceSide side = seen.side_of(triangle, ids, reach, crosses);
+      Part& found = *find_part({part, others_.part_of(triangle)});
+      found.crosses |= crosses;
+      if (side != SurfaceSide::unknown)
+        found.sides |= side == SurfaceSide::front ? front_bit : behind_bit;
+    }
   }
-  return behind;
+  found_ = 0;
+  for (Part& part : parts_) {
+    if (part.crosses && !convex && before != SurfaceSide::unknown) {
+      part.sides = before == SurfaceSide::behind ? behind_bit : front_bit;
+    } else if (part.sides != behind_bit) {
+      const bool is_behind = convex && part.sides != 0 && seen.centre_behind(of_centre, pairs);
+      part.sides = is_behind ? behind_bit : front_bit;
+    }
+    found_ |= part.sides;
+  }
+  if (!convex && !mixed()) side_ = all_behind() ? SurfaceSide::behind : SurfaceSide::front;
 }
 
 }  // namespace tumble

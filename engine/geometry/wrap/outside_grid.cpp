@@ -29,6 +29,62 @@ Error too_many(double bricks, double spacing, size_t max_bricks) {
                       1.1 * spacing * std::cbrt(bricks / double(max_bricks)))};
 }
 
+/// The square of a distance that no node has from outside: the least side of the room has at most
+/// 512 nodes, as there are at most 2^27. Along rows alone distances may be longer and are cut off.
+constexpr int64_t far_square = 1 << 28;
+
+/// f(n) for every row, by any thread, until stopped.
+template <class F>
+void for_rows(Crew* crew, size_t rows, const F& f) {
+  const auto row = [&](size_t n) {
+    if (!stop_requested()) f(n);
+  };
+  if (crew) {
+    crew->each(rows, row);
+  } else {
+    for (size_t n = 0; n < rows; ++n) row(n);
+  }
+}
+
+/// One row of the distance transform: of parabolas over its nodes, with the values given at their
+/// apices, the least at each node.
+class LowerEnvelope {
+ public:
+  void run(int32_t* values, size_t step, int count) {
+    parabolas_.clear();
+    for (int q = 0; q < count; ++q) {
+      const int32_t f = values[size_t(q) * step];
+      if (f >= far_square) continue;
+      // From where on this one is below the last.
+      int from = 0;
+      while (!parabolas_.empty()) {
+        const Parabola& p = parabolas_.back();
+        const int64_t above = int64_t(f) + int64_t(q) * q - p.f - int64_t(p.q) * p.q;
+        from = above < 0 ? 0 : int(std::min<int64_t>(above / (2 * (q - p.q)) + 1, count));
+        if (from > p.from) break;
+        parabolas_.pop_back();
+        from = 0;
+      }
+      if (from < count) parabolas_.push_back({q, f, from});
+    }
+    for (size_t i = 0; i < parabolas_.size(); ++i) {
+      const Parabola& p = parabolas_[i];
+      const int end = i + 1 < parabolas_.size() ? parabolas_[i + 1].from : count;
+      for (int x = p.from; x < end; ++x)
+        values[size_t(x) * step] =
+            int32_t(std::min(p.f + int64_t(x - p.q) * (x - p.q), far_square));
+    }
+  }
+
+ private:
+  struct Parabola {
+    int q;
+    int32_t f;
+    int from;
+  };
+  std::vector<Parabola> parabolas_;
+};
+
 }  // namespace
 
 Result<OutsideGrid> OutsideGrid::make(const Aabb& box, double margin, double spacing,
@@ -58,8 +114,7 @@ Result<OutsideGrid> OutsideGrid::make(const Aabb& box, double margin, double spa
   return out;
 }
 
-void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(double, bool)> f, int y,
-                              int z) {
+void OutsideGrid::measure_row(const Hierarchy& surface, double radius, int y, int z) {
   const GridIndex& first = field_.bricks[0].at;
   const double h = field_.spacing;
   // The surface's distance from a node is at most that from the previous node plus the distance
@@ -70,7 +125,7 @@ void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(doubl
     auto near = surface.closest(p, reach);
     if (!near) near = surface.closest(p, std::numeric_limits<double>::infinity());
     const double d = std::sqrt(near->squared_distance);
-    double value = f(d, at({x, y, z}) < 0);
+    double value = d - radius;
     at({x, y, z}) = value;
     // The sign cannot change within the remaining distance, reduced by the length of an edge.
     const double left = std::fabs(value) / h - longest_edge;
@@ -82,18 +137,10 @@ void OutsideGrid::measure_row(const Hierarchy& surface, FunctionRef<double(doubl
   }
 }
 
-void OutsideGrid::measure(const Hierarchy& surface, FunctionRef<double(double, bool)> f,
-                          Crew* crew) {
-  const auto row = [&](size_t n) {
-    if (stop_requested()) return;
-    measure_row(surface, f, int(n % size_t(nodes_[1])), int(n / size_t(nodes_[1])));
-  };
-  const size_t rows = size_t(nodes_[1]) * size_t(nodes_[2]);
-  if (crew) {
-    crew->each(rows, row);
-  } else {
-    for (size_t n = 0; n < rows; ++n) row(n);
-  }
+void OutsideGrid::measure(const Hierarchy& surface, double radius, Crew* crew) {
+  for_rows(crew, size_t(nodes_[1]) * size_t(nodes_[2]), [&](size_t n) {
+    measure_row(surface, radius, int(n % size_t(nodes_[1])), int(n / size_t(nodes_[1])));
+  });
 }
 
 void OutsideGrid::fill_unreached() {
@@ -124,6 +171,36 @@ void OutsideGrid::fill_unreached() {
       for (int x = 0; x < nodes_[0]; ++x)
         if (double& value = at({x, y, z}); !reached[number({x, y, z})] && !(value < 0))
           value = -field_.spacing;
+}
+
+void OutsideGrid::grow_outside(double way, Crew* crew) {
+  // Squares of distances in steps of the grid, by one axis after the other.
+  const std::array<size_t, 3> count{size_t(nodes_[0]), size_t(nodes_[1]), size_t(nodes_[2])};
+  const std::array<size_t, 3> step{1, count[0], count[0] * count[1]};
+  std::vector<int32_t> square(count[0] * count[1] * count[2]);
+  for_rows(crew, count[1] * count[2], [&](size_t n) {
+    const int y = int(n % count[1]), z = int(n / count[1]);
+    for (int x = 0; x < nodes_[0]; ++x)
+      square[number({x, y, z})] = inside({x, y, z}) ? int32_t(far_square) : 0;
+  });
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    for_rows(crew, count[i] * count[j], [&](size_t n) {
+      thread_local LowerEnvelope envelope;
+      envelope.run(&square[n % count[i] * step[i] + n / count[i] * step[j]], step[k], nodes_[k]);
+    });
+  }
+  for_rows(crew, count[1] * count[2], [&](size_t n) {
+    const int y = int(n % count[1]), z = int(n / count[1]);
+    for (int x = 0; x < nodes_[0]; ++x)
+      at({x, y, z}) = way - field_.spacing * std::sqrt(double(square[number({x, y, z})]));
+  });
+}
+
+void OutsideGrid::keep_off_nodes(double least) {
+  for (SparseField::Brick& brick : field_.bricks)
+    for (double& value : brick.value)
+      if (std::fabs(value) < least) value = value < 0 ? -least : least;
 }
 
 size_t OutsideGrid::cut_edges() const {

@@ -1,5 +1,4 @@
 #pragma once
-#include "engine/core/function_ref.hpp"
 #include "engine/geometry/hierarchy/hierarchy.hpp"
 #include "engine/geometry/isosurface/sparse_field.hpp"
 
@@ -14,21 +13,26 @@ class OutsideGrid {
   /// With room for `margin` [m] about a box; errors name a spacing that would do.
   static Result<OutsideGrid> make(const Aabb& box, double margin, double spacing, size_t max_bytes);
 
-  /// At every node f(distance from a surface, whether the node was inside) [m], exactly within the
-  /// longest edge of a tetrahedron from where it is 0, elsewhere with its sign alone. f changes by
-  /// no more than one goes.
-  void measure(const Hierarchy& surface, FunctionRef<double(double distance, bool inside)> f,
-               Crew* crew);
+  /// At every node the distance from a surface less `radius` [m], exactly within the longest edge
+  /// of a tetrahedron from where it is 0, elsewhere with its sign alone.
+  void measure(const Hierarchy& surface, double radius, Crew* crew);
   /// What cannot be reached from the first corner over edges of the tetrahedra without coming
   /// inside is made inside.
   void fill_unreached();
+  /// The outside grows: inside remains what is farther than `way` [m] from all nodes outside; the
+  /// values are the way less that distance. Distances between nodes are exact (Felzenszwalb and
+  /// Huttenlocher, "Distance transforms of sampled functions", 2012).
+  void grow_outside(double way, Crew* crew);
+  /// No value is nearer to 0 than `least` [m], so that no triangles of the surface are much smaller
+  /// than cells. Which nodes are inside stays.
+  void keep_off_nodes(double least);
   const SparseField& field() const { return field_; }
   /// Edges of the tetrahedra with one end inside: vertices of the surface.
   size_t cut_edges() const;
 
  private:
   OutsideGrid() = default;
-  void measure_row(const Hierarchy& surface, FunctionRef<double(double, bool)> f, int y, int z);
+  void measure_row(const Hierarchy& surface, double radius, int y, int z);
   double& at(const std::array<int, 3>& node) {
     return field_.bricks[brick_of(node)].value[place_of(node)];
   }

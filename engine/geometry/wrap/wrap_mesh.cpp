@@ -6,7 +6,11 @@
 #include "engine/geometry/hierarchy/aabb_tree.hpp"
 #include "engine/geometry/isosurface/marching_tetrahedra.hpp"
 #include "engine/geometry/primitive_tests/point_in_object.hpp"
+#include "engine/geometry/wrap/enclosed_mesh.hpp"
+#include "engine/geometry/wrap/fit_wrap.hpp"
 #include "engine/geometry/wrap/outside_grid.hpp"
+#include "engine/geometry/wrap/simplify_wrap.hpp"
+#include "engine/geometry/wrap/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +21,6 @@
 namespace tumble {
 namespace {
 
-/// Twice the circumradius of a tetrahedron, with a margin for rounding [cells].
-constexpr double least_offset = 1.75;
 constexpr size_t measured_points = 4000;
 
 Error bad_wrap(std::string message, std::string cure = {}) {
@@ -27,8 +29,10 @@ Error bad_wrap(std::string message, std::string cure = {}) {
 
 Status check_wrap(const TriangleMesh& mesh, const WrapOptions& o) {
   if (Status s = validate(mesh); !s) return s.error();
-  for (const auto& [name, value] :
-       {std::pair{"gap", o.gap}, {"offset", o.offset}, {"cell", o.cell}})
+  for (const auto& [name, value] : {std::pair{"gap", o.gap},
+                                    {"offset", o.offset},
+                                    {"cell", o.cell},
+                                    {"tolerance", o.tolerance}})
     if (!(value >= 0) || !std::isfinite(value))
       return bad_wrap(fmt::format("{} of a wrap must be >= 0 m, got {}", name, value));
   return {};
@@ -51,7 +55,8 @@ void each_measured_point(const TriangleMesh& mesh, const F& f) {
 
 /// The surface of a grid.
 Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
-  // A closed surface has about two triangles per vertex (Euler).
+  // A closed surface has about two triangles for each vertex (Euler). With larger cells it stands
+  // farther off and is larger itself, which the size that is named allows for.
   const double triangles = 2 * double(grid.cut_edges());
   if (stop_requested()) return stopped_error();
   if (triangles > double(o.max_triangles))
@@ -60,7 +65,7 @@ Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
                     "allowed",
                     o.cell, triangles, o.max_triangles),
         fmt::format("cells of {:.2g} m would do",
-                    1.1 * o.cell * std::sqrt(triangles / double(o.max_triangles))));
+                    1.3 * o.cell * std::sqrt(triangles / double(o.max_triangles))));
   TriangleMesh out = isosurface(grid.field());
   if (stop_requested()) return stopped_error();
   MeshLimits limits;
@@ -69,64 +74,120 @@ Result<TriangleMesh> surface_of(const OutsideGrid& grid, const WrapOptions& o) {
   return out;
 }
 
+/// The first surface, `stand` off the mesh.
+Result<TriangleMesh> first_surface(const Hierarchy& surface, const WrapOptions& o, double radius,
+                                   double stand) {
+  auto grid = OutsideGrid::make(surface.bounds(), radius, o.cell, o.max_bytes);
+  if (!grid) return grid.error();
+  grid->measure(surface, radius, o.crew);
+  grid->fill_unreached();
+  if (stop_requested()) return stopped_error();
+  tell_progress(0.2);
+  if (radius > stand) grid->grow_outside(radius - stand, o.crew);
+  if (stop_requested()) return stopped_error();
+  grid->keep_off_nodes(tolerances::off_nodes * o.cell);
+  return surface_of(*grid, o);
+}
+
+/// The point of one mesh that is farthest from another: the triangles of the first are divided
+/// while their points may be farther away than what was found, by more than a share of it. No point
+/// of a triangle is farther from a triangle of the other than one of its corners is, as that is
+/// convex.
+class FarthestPoint {
+ public:
+  FarthestPoint(const TriangleMesh& from, const Hierarchy& to) : to_(to) {
+    for (const Vec3& p : from.vertices) found_ = std::max(found_, distance_from(to, p));
+    for (size_t t = 0; t < from.triangles.size(); ++t) open_.push_back(corners(from, uint32_t(t)));
+    for (size_t n = 0; n < open_.size() && !stop_requested(); ++n) divide(open_[n]);
+  }
+  double found() const { return found_; }
+  double bound() const { return found_ * (1 + tolerances::measured_share); }
+
+ private:
+  void divide(TriangleCorners t) {
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
+    const auto near = to_.closest(middle, std::numeric_limits<double>::infinity());
+    if (!near) return;
+    found_ = std::max(found_, std::sqrt(near->squared_distance));
+    const TriangleCorners other = corners(to_.mesh(), near->triangle);
+    double most = 0;
+    for (const Vec3& p : t)
+      most = std::max(most, closest_on_triangle(p, other[0], other[1], other[2]).squared_distance);
+    if (std::sqrt(most) <= bound()) return;
+    // In half across the longest side.
+    size_t k = 0;
+    for (size_t i = 1; i < 3; ++i)
+      if ((t[(i + 1) % 3] - t[i]).squaredNorm() > (t[(k + 1) % 3] - t[k]).squaredNorm()) k = i;
+    const Vec3 half = 0.5 * (t[k] + t[(k + 1) % 3]);
+    TriangleCorners a = t, b = t;
+    a[(k + 1) % 3] = b[k] = half;
+    open_.push_back(a);
+    open_.push_back(b);
+  }
+
+  const Hierarchy& to_;
+  std::vector<TriangleCorners> open_;
+  double found_ = 0;
+};
+
 }  // namespace
 
 WrapOptions complete(WrapOptions o, const Aabb& bounds) {
   const double size = bounds.extent().maxCoeff();
   if (o.gap == 0) o.gap = size / 12;
-  if (o.cell == 0)
-    o.cell = o.offset > 0 ? o.offset / 2 : std::clamp(o.gap / 4, size / 128, size / 40);
-  if (o.offset == 0) o.offset = 2 * o.cell;
+  if (o.cell == 0) o.cell = std::clamp(o.gap / 4, size / 128, size / 40);
+  if (o.offset == 0) o.offset = o.cell / 4;
+  if (o.tolerance == 0) o.tolerance = o.cell / 4;
   return o;
 }
 
 Result<WrappedMesh> wrap_mesh(const Hierarchy& surface, const WrapOptions& options) {
   if (Status s = check_wrap(surface.mesh(), options); !s) return s.error();
   const Aabb box = surface.bounds();
-  if (!(box.extent().maxCoeff() > 0)) return bad_wrap("a mesh without extent cannot be wrapped");
+  const double size = box.extent().maxCoeff();
+  if (!(size > 0)) return bad_wrap("a mesh without extent cannot be wrapped");
   const WrapOptions o = complete(options, box);
-  if (o.offset < least_offset * o.cell)
-    return bad_wrap(fmt::format("a wrap {:.3g} m off its mesh needs smaller cells than {:.3g} m",
-                                o.offset, o.cell),
-                    fmt::format("cells of {:.3g} m, or an offset of {:.3g} m, would do",
-                                o.offset / least_offset, least_offset * o.cell));
-  const double radius = std::max(o.gap / 2, o.offset), back = radius - o.offset;
-  auto grid = OutsideGrid::make(box, radius, o.cell, o.max_bytes);
-  if (!grid) return grid.error();
+  if (o.offset < tolerances::least_offset * size)
+    return bad_wrap(
+        fmt::format("a wrap cannot stand {:.3g} m off a mesh of {:.3g} m", o.offset, size),
+        fmt::format("an offset of {:.3g} m would do", tolerances::least_offset * size));
+  double stand = o.offset + tolerances::first_stand * o.cell;
+  const double radius = std::max(o.gap / 2, stand);
+  if (radius - stand < tolerances::least_way_back * o.cell) stand = radius;
   tell_progress(0);
-  grid->measure(
-      surface, [&](double d, bool) { return d - radius; }, o.crew);
-  grid->fill_unreached();
-  tell_progress(0.3);
-  auto made = surface_of(*grid, o);
-  if (made && back > 0) {
-    const AabbTree reached(std::make_shared<const TriangleMesh>(*std::move(made)));
-    tell_progress(0.4);
-    grid->measure(
-        reached, [&](double d, bool inside) { return back - (inside ? d : -d); }, o.crew);
-    grid->fill_unreached();
-    tell_progress(0.7);
-    made = surface_of(*grid, o);
-  }
+  auto made = first_surface(surface, o, radius, stand);
   if (!made) return made.error();
   WrappedMesh out;
   out.mesh = *std::move(made);
+  tell_progress(0.3);
+  const EnclosedMesh enclosed(surface, tolerances::least_clearance * o.offset);
+  if (stop_requested()) return stopped_error();
+  even_out_wrap(out.mesh, enclosed,
+                {tolerances::even_error * o.cell, o.cell, tolerances::even_edge * o.cell});
+  if (stop_requested()) return stopped_error();
+  tell_progress(0.4);
+  fit_wrap(out.mesh, enclosed, {o.offset, stand, o.cell, o.crew});
+  if (stop_requested()) return stopped_error();
+  tell_progress(0.6);
+  simplify_wrap(out.mesh, enclosed, {o.tolerance, o.cell});
+  if (stop_requested()) return stopped_error();
+  tell_progress(0.9);
   out.report = measure_wrap(AabbTree(std::make_shared<const TriangleMesh>(out.mesh)), surface);
+  if (stop_requested()) return stopped_error();
   tell_progress(1);
   out.report.gap = 2 * radius;
   out.report.offset = o.offset;
   out.report.cell = o.cell;
-  // The boundary of the outside is at most `radius` from the mesh, and the wrap at most `back` from
-  // that.
-  out.report.bound = radius + back + least_offset / 2 * o.cell * (back > 0 ? 2 : 1);
-  if (stop_requested()) return stopped_error();
   return out;
 }
 
 WrapReport measure_wrap(const Hierarchy& wrap, const Hierarchy& mesh) {
   WrapReport out;
-  each_measured_point(
-      wrap.mesh(), [&](const Vec3& p) { out.added = std::max(out.added, distance_from(mesh, p)); });
+  const FarthestPoint farthest(wrap.mesh(), mesh);
+  out.added = farthest.found();
+  out.bound = farthest.bound();
+  if (const auto near = wrap.distance(mesh, Pose{}, std::numeric_limits<double>::infinity()))
+    out.nearest = std::sqrt(near->squared_distance);
   each_measured_point(mesh.mesh(), [&](const Vec3& p) {
     const double d = distance_from(wrap, p);
     if (d <= std::min(out.missing, out.buried)) return;

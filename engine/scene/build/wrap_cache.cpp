@@ -8,13 +8,13 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t wrap_format = 1;  ///< version of the file format, not of the method
+constexpr uint32_t wrap_format = 2;  ///< version of the file format, not of the method
 constexpr std::string_view wrap_section = "wrapped mesh";
 
 /// The numbers of a report, in the order of the file.
 template <class Report>
 auto numbers_of(Report& r) {
-  return std::array{&r.gap, &r.offset, &r.cell, &r.added, &r.missing, &r.buried, &r.bound};
+  return std::array{&r.gap, &r.offset, &r.cell, &r.added, &r.missing, &r.buried, &r.nearest, &r.bound};
 }
 
 Bytes bytes_of_wrap(const WrappedMesh& wrap) {
@@ -47,7 +47,7 @@ Result<WrappedMesh> WrapCache::wrap(const std::shared_ptr<const TriangleMesh>& m
   ByteWriter key;
   key.value(wrap_format);
   key.value(wrap_version);
-  for (const double x : {o.gap, o.offset, o.cell}) key.value(x);
+  for (const double x : {o.gap, o.offset, o.cell, o.tolerance}) key.value(x);
   add_to_key(key, *mesh);
   if (const auto kept = cache_.read(key.bytes()))
     if (auto known = wrap_of_bytes(*kept)) return *std::move(known);

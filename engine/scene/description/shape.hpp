@@ -95,17 +95,19 @@ struct WrapDescription {
                     .max = 1e6,
                     .doc = "holes and slits that a ball of this diameter does not pass are closed; "
                            "a 12th of the mesh's longest side unless given"});
-    v.field(d.offset, {.name = "offset",
-                       .unit = "m",
-                       .min = 1e-9,
-                       .max = 1e6,
-                       .doc = "how far the wrap stands off the mesh; two cells unless given"});
-    v.field(d.cell, {.name = "cell",
-                     .unit = "m",
-                     .min = 1e-9,
-                     .max = 1e6,
-                     .doc = "side of its cells; half of offset, else a quarter of gap, but from a "
-                            "128th to a 40th of the mesh's longest side unless given"});
+    v.field(d.offset,
+            {.name = "offset",
+             .unit = "m",
+             .min = 1e-9,
+             .max = 1e6,
+             .doc = "how far the wrap stands off the mesh; a quarter of a cell unless given"});
+    v.field(d.cell,
+            {.name = "cell",
+             .unit = "m",
+             .min = 1e-9,
+             .max = 1e6,
+             .doc = "side of its cells; a quarter of gap, but from a 128th to a 40th of the "
+                    "mesh's longest side unless given"});
   }
 };
 

@@ -294,18 +294,20 @@ TEST_CASE("an open mesh is wrapped when asked, and has volume, pieces and a fiel
   CHECK(open["volume"].is_null());
   CHECK(open["faults"].dump().find("wrap it") != std::string::npos);
   const std::string out = (folder / "wrap.obj").string();
-  const std::vector<std::string> coarse = {"--wrap=0.1", "--wrap-cell", "0.05"};
+  const std::vector<std::string> coarse = {"--wrap=0.1", "--wrap-cell", "0.04", "--wrap-offset",
+                                           "0.05"};
   std::vector<std::string> all = coarse;
   for (const char* more : {"--sdf", "--decompose", "--concavity", "0.1"}) all.push_back(more);
   const Json m = mesh_facts_of(tray, all);
   CHECK(m["solid"] == true);
   CHECK(m["faults"].empty());
   CHECK(m["wrap"]["missing"] == 0);
-  CHECK(m["wrap"]["added"].get<double>() > 0.09);
+  CHECK(m["wrap"]["added"].get<double>() > 0.049);
+  CHECK(m["wrap"]["nearest"].get<double>() >= 0.025);
   CHECK(m["wrap"]["added"].get<double>() <= m["wrap"]["bound"].get<double>());
-  // Walls of .2 m by an offset of .1: between those of bare walls and a filled tray.
-  CHECK(m["volume"].get<double>() > 0.2 * (1 + 4 * 0.4));
-  CHECK(m["volume"].get<double>() < 1.2 * 1.2 * 0.6);
+  // Walls of .1 m by an offset of .05: between those of bare walls and a filled tray.
+  CHECK(m["volume"].get<double>() > 0.1 * (1 + 4 * 0.4));
+  CHECK(m["volume"].get<double>() < 1.1 * 1.1 * 0.5);
   CHECK(m["decomposition"]["pieces"].size() > 3);
   CHECK(m["distance_field"]["blocks"].get<size_t>() > 0);
   // What is written is what is told of.

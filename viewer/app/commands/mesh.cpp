@@ -151,13 +151,14 @@ void declare_wrap(Options& options, MeshLine& line) {
       "ball of this diameter does not pass [m], a 12th of the longest side unless given");
   options
       .value("--wrap-offset", line.wrapping.offset,
-             "how far the wrap stands off the mesh [m]; two cells unless given")
+             "how far the wrap stands off the mesh [m]; a quarter of a cell unless given")
       .between(1e-9, 1e6)
       .needs(wrap);
   options
-      .value("--wrap-cell", line.wrapping.cell,
-             "side of its cells [m]; half of the offset, else a quarter of the gap, but from a "
-             "128th to a 40th of the longest side unless given")
+      .value(
+          "--wrap-cell", line.wrapping.cell,
+          "side of its cells [m]; a quarter of the gap, but from a 128th to a 40th of the longest "
+          "side unless given")
       .between(1e-9, 1e6)
       .needs(wrap);
 }

@@ -128,6 +128,7 @@ Json wrap_json(const WrapFacts& f) {
               {"added", r.added},
               {"missing", r.missing},
               {"buried", r.buried},
+              {"nearest", r.nearest},
               {"bound", r.bound},
               {"timing", {{"seconds", f.seconds}}}};
   if (!f.file.empty()) out["out"] = f.file.string();

@@ -50,11 +50,13 @@ std::string wrap_text(const WrapFacts& f) {
       "pass is closed\n",
       "", r.offset, r.cell, r.gap);
   out += fmt::format(
-      "  {:<16}reaches {:.3g} m outside the mesh, as sampled ({:.3g} m at most), and "
+      "  {:<16}reaches {:.3g} m outside the mesh, as found ({:.3g} m at most), and "
       "leaves {:.3g} m of it out\n",
       "", r.added, r.bound, r.missing);
-  out +=
-      fmt::format("  {:<16}of the mesh nothing is more than {:.3g} m beneath it\n", "", r.buried);
+  out += fmt::format(
+      "  {:<16}of the mesh nothing is more than {:.3g} m beneath it, and nothing nearer to it than "
+      "{:.3g} m\n",
+      "", r.buried, r.nearest);
   if (!f.file.empty()) out += fmt::format("  {:<16}{}\n", "", f.file.string());
   return out;
 }
