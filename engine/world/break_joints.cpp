@@ -1,5 +1,6 @@
 #include "engine/world/break_joints.hpp"
 
+#include "engine/dynamics/joints/joint_loops.hpp"
 #include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/world/joint_drives.hpp"
 
@@ -52,20 +53,27 @@ void follow_events(WorldState& s, Joint& joint, double h) {
   }
 }
 
-/// Mean wrench of the joint on B over the tick.
-JointWrench mean_load(const WorldState& s, const Joint& joint) {
-  if (s.settings.stepper == "event") {
-    JointWrench load = mean_wrench(joint, joint_sides(joint, s.bodies.bodies));
-    const auto slot = uint32_t(&joint - s.joints.joints.data());
-    for (size_t k = 0; joint.coupled && k < most_coordinates; ++k)
-      if (joint.is_coupled(k))
-        add_coordinate_wrench(joint, k, s.joints.coupling_force(slot, k), s.bodies.bodies, load);
-    return load;
+/// Divides what joints bear that their stepper solved one after the other.
+void share_loads(WorldState& s, bool events) {
+  for (JointLoops& loops : s.joints.loops(s.bodies.bodies)) {
+    const bool moved = std::ranges::any_of(loops.bodies, [&s](uint32_t i) { return awake(s, i); });
+    const bool in_turn = !events || std::ranges::any_of(loops.joints, [&s](uint32_t j) {
+      return time_stepped(s, s.joints.joints[j]);
+    });
+    if (moved && in_turn) share_impulses(loops, s.bodies.bodies, s.joints.joints);
   }
-  const double h = s.settings.tick.tick();
-  const Vec3 arm = joint_sides(joint, s.bodies.bodies).b.arm;
-  const Vec3 force = joint.push.impulse / h;
-  return {force, joint.push.moment_b / h - arm.cross(force)};
+}
+
+/// Under the event stepper, which knows impulses by row: what the joint did over the tick, along
+/// the directions of its rows at the end.
+void sum_rows(const WorldState& s, Joint& joint, double h) {
+  if (time_stepped(s, joint)) return;
+  JointWrench load = wrench_of_rows(joint, joint_sides(joint, s.bodies.bodies));
+  const auto slot = uint32_t(&joint - s.joints.joints.data());
+  for (size_t k = 0; joint.coupled && k < most_coordinates; ++k)
+    if (joint.is_coupled(k))
+      add_coordinate_wrench(joint, k, s.joints.coupling_force(slot, k), s.bodies.bodies, load);
+  joint.impulse = {h * load.force, h * load.torque};
 }
 
 Status break_joint(WorldState& s, JointId id, const JointWrench& load) {
@@ -90,7 +98,6 @@ void begin_joints(WorldState& s) {
   for (const uint32_t slot : s.joints.watched) {
     Joint& joint = s.joints.joints[slot];
     if (!awake(s, joint.a) && !awake(s, joint.b)) continue;
-    joint.push = {};
     joint.motor_impulse.fill(0);
   }
 }
@@ -98,16 +105,22 @@ void begin_joints(WorldState& s) {
 Status end_joints(WorldState& s) {
   const bool events = s.settings.stepper == "event";
   const double h = s.settings.tick.tick();
-  std::vector<std::pair<JointId, JointWrench>> broken;
   for (const uint32_t i : s.joints.watched) {
     Joint& joint = s.joints.joints[i];
     if (events)
       follow_events(s, joint, h);
     else if (joint.followed() && !dynamic(s, joint.a) && !dynamic(s, joint.b))
       follow_coordinates(joint, s.bodies.bodies, h);
+  }
+  for (uint32_t i = 0; events && i < s.joints.ids.capacity(); ++i)
+    if (s.joints.ids.alive(i)) sum_rows(s, s.joints.joints[i], h);
+  share_loads(s, events);
+  std::vector<std::pair<JointId, JointWrench>> broken;
+  for (const uint32_t i : s.joints.watched) {
+    const Joint& joint = s.joints.joints[i];
     const JointDef& def = s.joints.defs[i];
     if (!def.breaks()) continue;
-    const JointWrench load = mean_load(s, joint);
+    const JointWrench load = mean_load(joint, h);
     if (!(load.force.norm() > def.break_force || load.torque.norm() > def.break_torque)) continue;
     broken.emplace_back(s.joints.ids.at(i), load);
   }

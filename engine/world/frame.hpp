@@ -97,10 +97,9 @@ struct JointFrame {
   JointKind kind = JointKind::spherical;
   BodyId a, b;
   Pose frame_a, frame_b;  ///< origin: the anchor, z: the main axis
-  /// Force on B, and torque about B's anchor: means over the last tick, from the impulses of the
-  /// rows divided by its length, along the directions of the rows at its end; zero before the first
-  /// tick. They differ from the values at the end of the tick by about half of their change in a
-  /// tick; World::joint_reactions() gives those.
+  /// Force on B, and torque about B's anchor: impulses over the last tick divided by its length, in
+  /// world axes; zero before the first tick. They differ from the values at the end of the tick by
+  /// about half of their change in a tick; World::joint_reactions() gives those.
   Vec3 mean_force = Vec3::Zero();   ///< [N]
   Vec3 mean_torque = Vec3::Zero();  ///< [N m]
   /// In the order of the coordinates of the kind; those beyond its number are unused.

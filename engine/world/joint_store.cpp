@@ -121,11 +121,13 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
     made.moving_force = old.moving_force;
     made.relaxing_force = old.relaxing_force;
     made.motor_impulse = old.motor_impulse;
+    made.impulse = old.impulse;
     made.value = old.value;
     follow_coordinates(made, bodies.bodies, 0);
   }
   joints[id.index] = std::move(made);
   defs[id.index] = def;
+  loops_.reset();
   note(id.index, joints[id.index].followed() || def.breaks(), watched);
   const auto follows = [](const CoordinateDrive& d) { return d.couple.has_value(); };
   note(id.index, std::ranges::any_of(def.drives, follows), followers_);
@@ -185,6 +187,7 @@ JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {
 void JointStore::release(JointId id) {
   if (!ids.release(id)) return;
   joints[id.index] = {};
+  loops_.reset();
   note(id.index, false, watched);
   note(id.index, false, followers_);
   note(id.index, false, timed);
@@ -207,6 +210,14 @@ void JointStore::add_links(std::vector<BodyLink>& links) const {
         if (a != no_body && b != no_body && a != b) links.push_back({a, b});
 }
 
+std::vector<JointLoops>& JointStore::loops(std::span<const RigidBody> bodies) {
+  if (loops_) return *loops_;
+  std::vector<uint32_t> live;
+  for (uint32_t i = 0; i < ids.capacity(); ++i)
+    if (ids.alive(i)) live.push_back(i);
+  return loops_.emplace(find_loops(joints, live, bodies));
+}
+
 void JointStore::find_apart(std::span<const RigidBody> bodies, PairFilter& out) const {
   out.clear();
   out.set_groups(bodies);
@@ -227,6 +238,8 @@ void JointStore::save(ByteWriter& out) const {
     out.value(joints[i].value);
     out.value(joints[i].rate);
     out.value(joints[i].motor_impulse);
+    out.value(joints[i].impulse.force);
+    out.value(joints[i].impulse.torque);
   }
   for (const JointCoupling& c : couplings) {
     out.value(c.moving_force);
@@ -242,6 +255,7 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
   followers_.clear();
   timed.clear();
   watched.clear();
+  loops_.reset();
   for (uint32_t i = 0; i < ids.capacity() && in.ok(); ++i) {
     if (!ids.alive(i)) continue;
     const JointDef def = read_joint_def(in);
@@ -253,6 +267,8 @@ void JointStore::load(ByteReader& in, const BodySet& bodies) {
     in.value(joints[i].value);
     in.value(joints[i].rate);
     in.value(joints[i].motor_impulse);
+    in.value(joints[i].impulse.force);
+    in.value(joints[i].impulse.torque);
   }
   for (JointCoupling& c : couplings) {
     in.value(c.moving_force);

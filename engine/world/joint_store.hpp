@@ -3,6 +3,7 @@
 #include "engine/dynamics/bodies/pair_filter.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint_coupling.hpp"
+#include "engine/dynamics/joints/joint_loops.hpp"
 
 #include <span>
 #include <vector>
@@ -46,6 +47,8 @@ class JointStore {
   /// Adds a link between the two bodies of every joint, in the order of slots; then links without a
   /// joint, which join the bodies of the two joints of each coupling.
   void add_links(std::vector<BodyLink>& links) const;
+  /// The loops among the live joints, found anew when joints or their bodies have changed.
+  std::vector<JointLoops>& loops(std::span<const RigidBody> bodies);
   /// Adds the pairs that do not collide because a joint excludes them or because they are of one
   /// group.
   void find_apart(std::span<const RigidBody> bodies, PairFilter& out) const;
@@ -59,6 +62,7 @@ class JointStore {
   void add_coupling(uint32_t slot, uint32_t x, const CoordinateCouple& couple,
                     std::span<const JointCoupling> before);
 
+  std::optional<std::vector<JointLoops>> loops_;
   std::vector<uint32_t> followers_;  ///< slots of live joints with a CoordinateCouple, ascending
 };
 

@@ -1,6 +1,5 @@
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
-#include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/world/particle_frames.hpp"
 #include "engine/world/state.hpp"
@@ -210,7 +209,7 @@ std::shared_ptr<const std::vector<JointFrame>> make_joints(WorldState& s) {
     f.b = def.b;
     f.frame_a = {sides.a.anchor(), sides.a.q};
     f.frame_b = {sides.b.anchor(), sides.b.q};
-    const JointWrench mean = mean_wrench(j, sides);
+    const JointWrench mean = mean_load(j, s.settings.tick.tick());
     f.mean_force = mean.force;
     f.mean_torque = mean.torque;
     f.coordinates = coordinates_of(s, j);

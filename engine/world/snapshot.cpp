@@ -28,7 +28,8 @@ constexpr uint32_t sensors_version = 2;
 /// 6: values over time, mass over life; when bodies were born, what they touch, births asked for.
 constexpr uint32_t emitters_version = 6;
 /// 2: what acts along coordinates, their values. 3: what couples coordinates; courses of motors.
-constexpr uint32_t joints_version = 3;
+/// 4: impulses over the last tick.
+constexpr uint32_t joints_version = 4;
 constexpr uint32_t particle_contacts_version = 2;
 /// 2: particles in contact. 3: time-stepped ticks of bodies. 4: of particles.
 constexpr uint32_t event_version = 4;

@@ -326,7 +326,7 @@ TEST_CASE("a rope is a free joint with an upper limit: slack, then taut") {
   w.run(1);
   CHECK(w.bodies[bob].pose.x.y() == doctest::Approx(-1).epsilon(1e-6));
   CHECK(w.bodies[bob].v.norm() < 1e-6);
-  CHECK(w.joints[0].push.impulse.y() > 0);
+  CHECK(w.joints[0].impulse.force.y() > 0);
 }
 
 TEST_CASE("a motor does not fight its own hinge: an arm off its pivot follows at once") {

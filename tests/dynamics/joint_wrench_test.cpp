@@ -80,7 +80,7 @@ TEST_CASE("the wrench of a joint does the work of its rows in any motion") {
       joint.moving_force[i] = random.uniform(-5, 5);
       joint.relaxing_force[i] = random.uniform(-1, 1);
     }
-    const JointWrench wrench = mean_wrench(joint, sides);
+    const JointWrench wrench = wrench_of_rows(joint, sides);
     std::array<DofBlock, 2> blocks;
     for (DofBlock& b : blocks)
       for (int k = 0; k < 3; ++k)

@@ -167,7 +167,7 @@ TEST_CASE("in an ordinary island a ball bounces off the whole mechanism, whereve
             CHECK(w.kinetic_energy() == doctest::Approx(kept).epsilon(5e-3));
             // What the hinge gives is what the rod's momentum lacks.
             if (count == 1)
-              CHECK(std::fabs(w.joints[0].push.impulse.y() - impulse * (1 - 0.5 * x / moment)) <
+              CHECK(std::fabs(w.joints[0].impulse.force.y() - impulse * (1 - 0.5 * x / moment)) <
                     0.02 * impulse);
           }
 }

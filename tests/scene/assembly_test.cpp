@@ -2,8 +2,10 @@
 // References: the point in which two circles meet (four-bar linkage), the centre of mass, which
 // least moves of two bodies leave where it is, the velocities of a slider-crank by differentiation,
 // the moment of inertia that its crank feels, and for Bricard's linkage what its joints are off.
+// Limits: all sets of them tried one after the other, and the least of a function of two angles.
 #include "engine/scene/build/assembly.hpp"
 
+#include "engine/core/random.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/scene/build.hpp"
 #include "engine/scene/build/force_defs.hpp"
@@ -11,7 +13,10 @@
 #include "engine/world/world.hpp"
 #include "tests/scene/scene_text.hpp"
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -245,9 +250,8 @@ TEST_CASE("a cloth that is pinned to a body that is moved starts unstretched") {
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("limits that pull others along until assembly gives up are a fault, by name") {
-  // A train with play in its couplings, whose first car is taken away: each round of assembly pulls
-  // one more car.
+TEST_CASE("limits pull others along, however many") {
+  // A train with play in its couplings, whose first car is taken away.
   const auto train = [](int cars) {
     return fmt::format(
         R"("bodies": {{"car": {{"shape": {{"type": "sphere", "radius": 0.1}},
@@ -260,7 +264,151 @@ TEST_CASE("limits that pull others along until assembly gives up are a fault, by
   const Assembled brief(train(5));
   CHECK((brief.body("car[4]").pose.x - Vec3(13.6, 0, 0)).norm() < 1e-10);
   const Assembled far_off(train(24));
-  REQUIRE(far_off.faults.size() == 1);
-  CHECK(far_off.faults[0].path == "joints");
-  CHECK(far_off.faults[0].message.find("limits of hook[19] are still passed") != std::string::npos);
+  CHECK((far_off.body("car[23]").pose.x - Vec3(30.7, 0, 0)).norm() < 1e-10);
+}
+
+TEST_CASE("limits that contradict each other are a fault, by name and with what is left") {
+  const Assembled bad(
+      R"("bodies": {"a": {"shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0, 0]}},
+    "joints": {"low": {"kind": "prismatic", "b": "a", "axis": [1, 0, 0], "limits": {"upper": -0.5}},
+      "high": {"kind": "prismatic", "b": "a", "axis": [1, 0, 0], "limits": {"lower": 0.5}}})");
+  REQUIRE(bad.faults.size() == 2);
+  CHECK(bad.faults[0].path == "joints.low");
+  CHECK(bad.faults[0].message.find("cannot be assembled: its upper limit stays passed by 0.5 m") ==
+        0);
+  CHECK(bad.faults[1].message.find("cannot be assembled: its lower limit stays passed by 0.5 m") ==
+        0);
+}
+
+namespace {
+
+/// Cars in a row, of which the first stands still: car k + 1 may be moved by lower[k] to upper[k]
+/// more than car k.
+struct Train {
+  std::vector<double> mass, lower, upper;
+};
+
+std::string text_of(const Train& t) {
+  std::string bodies, joints = R"("stop": {"kind": "rigid", "b": "car0"})";
+  for (size_t i = 0; i < t.mass.size(); ++i)
+    bodies += fmt::format(
+        R"({}"car{}": {{"shape": {{"type": "sphere", "radius": 0.1}}, "mass": {}, "position": [{}, 0, 0]}})",
+        i > 0 ? ", " : "", i, t.mass[i], i);
+  for (size_t k = 0; k < t.lower.size(); ++k)
+    joints += fmt::format(
+        R"(, "hook{}": {{"kind": "prismatic", "a": "car{}", "b": "car{}", "axis": [1, 0, 0],
+          "limits": {{"lower": {}, "upper": {}}}}})",
+        k, k, k + 1, t.lower[k], t.upper[k]);
+  return "\"bodies\": {" + bodies + "}, \"joints\": {" + joints + "}";
+}
+
+/// The displacements with the least sum of m d^2, by trying for every hook whether it is free (0),
+/// at its lower (1) or at its upper limit (2). Cars between which hooks are at limits move as one:
+/// with d = e_i + D the sum is least where D is minus the mean of the e_i, or 0 with the first car.
+std::vector<double> nearest_by_trying(const Train& t, std::vector<int>& best_state) {
+  const size_t hooks = t.lower.size();
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> best;
+  const auto count = size_t(std::lround(std::pow(3, hooks)));
+  for (size_t code = 0; code < count; ++code) {
+    std::vector<int> state(hooks);
+    size_t rest = code;
+    for (int& of : state) of = int(rest % 3), rest /= 3;
+    std::vector<double> d(hooks + 1, 0);
+    for (size_t first = 0; first <= hooks;) {
+      size_t end = first + 1;
+      double sum = 0, weight = t.mass[first];
+      d[first] = 0;
+      for (; end <= hooks && state[end - 1] != 0; ++end) {
+        d[end] = d[end - 1] + (state[end - 1] == 1 ? t.lower : t.upper)[end - 1];
+        sum += t.mass[end] * d[end];
+        weight += t.mass[end];
+      }
+      for (size_t i = first; first > 0 && i < end; ++i) d[i] -= sum / weight;
+      first = end;
+    }
+    bool fits = true;
+    double square = 0;
+    for (size_t i = 0; i <= hooks; ++i) square += t.mass[i] * d[i] * d[i];
+    for (size_t k = 0; k < hooks; ++k) {
+      const double x = d[k + 1] - d[k];
+      fits = fits && x >= t.lower[k] - 1e-12 && x <= t.upper[k] + 1e-12;
+    }
+    if (!fits || square >= least) continue;
+    least = square;
+    best = d;
+    best_state = state;
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("limits are kept by the least motion of all: as trying all sets of limits finds") {
+  Random random(26);
+  int let_go = 0;
+  constexpr int cases = 40;
+  for (int n = 0; n < cases; ++n) {
+    INFO(n);
+    Train t;
+    for (int i = 0; i < 6; ++i) t.mass.push_back(random.uniform(0.5, 4));
+    for (int k = 0; k < 5; ++k) {
+      t.lower.push_back(random.uniform(-1, 0.5));
+      t.upper.push_back(t.lower.back() + random.uniform(0.05, 1));
+    }
+    std::vector<int> state;
+    const std::vector<double> expected = nearest_by_trying(t, state);
+    const Assembled s(text_of(t));
+    for (size_t i = 0; i < t.mass.size(); ++i)
+      CHECK(s.body(fmt::format("car{}", i).c_str()).pose.x.x() ==
+            doctest::Approx(double(i) + expected[i]).epsilon(1e-9));
+    bool idle = false;
+    for (size_t k = 0; k < state.size(); ++k)
+      idle = idle || (state[k] == 0 && (t.lower[k] > 0 || t.upper[k] < 0));
+    let_go += idle;
+  }
+  // In many of them a limit that is passed at the start does not hold in the end.
+  CHECK(let_go > cases / 8);
+}
+
+TEST_CASE("an arm with limits goes to the nearest of the places that it may take") {
+  // Two rods of a metre; angles from the x axis, and of the second from the first.
+  const double degree = std::acos(-1.0) / 180;
+  const auto arm = [degree](double l1, double u1, double l2, double u2) {
+    return "\"bodies\": {" + bar("a", 1, 0.7, 0.1, 0) + "," + bar("b", 1, 1.8, -0.2, 0) +
+           fmt::format(R"(}}, "joints": {{
+      "root": {{"kind": "revolute", "b": "a", "anchor_b": [-0.5, 0, 0], "limits": {{"lower_deg": {}, "upper_deg": {}}}}},
+      "elbow": {{"kind": "revolute", "a": "a", "b": "b", "anchor": [0.5, 0, 0], "anchor_b": [-0.5, 0, 0],
+        "limits": {{"lower_deg": {}, "upper_deg": {}}}}}}})",
+                       l1 / degree, u1 / degree, l2 / degree, u2 / degree);
+  };
+  const auto along = [](double q) { return Vec3(std::cos(q), std::sin(q), 0); };
+  const auto square = [&](double q1, double q2) {
+    const Vec3 a = 0.5 * along(q1) - Vec3(0.7, 0.1, 0);
+    const Vec3 b = along(q1) + 0.5 * along(q1 + q2) - Vec3(1.8, -0.2, 0);
+    return a.squaredNorm() + b.squaredNorm() + 1.01 / 12 * (q1 * q1 + (q1 + q2) * (q1 + q2));
+  };
+  // The least of a function of one number between two others (golden section).
+  const auto least = [](const auto& of, double low, double high) {
+    const double share = 0.5 * (std::sqrt(5.0) - 1);
+    for (int i = 0; i < 80; ++i) {
+      const double p = high - share * (high - low), q = low + share * (high - low);
+      (of(p) < of(q) ? high : low) = of(p) < of(q) ? q : p;
+    }
+    return 0.5 * (low + high);
+  };
+  using Limits = std::array<double, 4>;
+  for (const Limits& l : {Limits{0.3, 1.0, -1.0, -0.4}, Limits{-1.0, 1.0, 0.3, 1.0},
+                          Limits{-0.5, -0.2, -0.3, 0.3}, Limits{0.4, 0.8, 0.5, 0.9}}) {
+    INFO(l[0], " ", l[2]);
+    const auto elbow = [&](double q1) {
+      return least([&](double q2) { return square(q1, q2); }, l[2], l[3]);
+    };
+    const double q1 = least([&](double q) { return square(q, elbow(q)); }, l[0], l[1]);
+    const double q2 = elbow(q1);
+    const Assembled s(arm(l[0], l[1], l[2], l[3]));
+    CHECK(worst_misfit(s.scene) < 1e-12);
+    CHECK((s.body("a").pose.x - 0.5 * along(q1)).norm() < 1e-6);
+    CHECK((s.body("b").pose.x - along(q1) - 0.5 * along(q1 + q2)).norm() < 1e-6);
+  }
 }

@@ -219,6 +219,12 @@ TEST_CASE("repetition: absurd counts, copies that do not exist") {
 TEST_CASE("parameters: unknown, without a finite value, not whole") {
   check_faults(scene_with("\"parameters\": {\"mass\": 2},\n\"seed\": \"$mas\""),
                {{3, "seed", "unknown parameter 'mas', did you mean 'mass'?"}});
+  check_faults(ball("\"mass\": \"= 1 + t\""),
+               {{3, "bodies.ball.mass", "does not change with time"}});
+  for (const char* over_time : {"\"= 9.81*sin(t)\"", "[[0, 0], [1, 9.81]]"})
+    check_faults(
+        scene_with("\"settings\": {\n\"gravity\": [0, " + std::string(over_time) + ", 0]}"),
+        {{3, "settings.gravity[1]", "give a force of type uniform_field this acceleration"}});
   check_faults(ball("\"mass\": \"= 1 / 0\""), {{3, "bodies.ball.mass", "no finite value"}});
   check_faults(ball("\"mass\": \"= 1 +\""), {{3, "bodies.ball.mass", "expected a value"}});
   check_faults(scene_with("\"parameters\": {\"a\": {\"value\": 2, \"max\": 1}}"),

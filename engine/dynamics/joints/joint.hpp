@@ -54,7 +54,9 @@ struct Joint {
   std::array<double, most_coordinates> value{}, rate{};
   /// By coordinate: impulse of its motor over the last tick [N s] or [N m s].
   std::array<double, most_coordinates> motor_impulse{};
-  JointPush push;       ///< over the tick so far; not state
+  /// Over the last tick, with what couplings do along its coordinates: `force` is an impulse
+  /// [N s], `torque` an angular impulse [N m s].
+  JointWrench impulse;
   uint8_t coupled = 0;  ///< by coordinate, a bit: a JointCoupling names it
 
   /// Whether its coordinates must be followed from tick to tick to count full turns. Those of a
@@ -63,6 +65,11 @@ struct Joint {
   bool driven(size_t coordinate) const { return drives && (*drives)[coordinate].acts(); }
   bool is_coupled(size_t coordinate) const { return (coupled >> coordinate & 1) != 0; }
 };
+
+/// Mean wrench over the last tick of h seconds.
+inline JointWrench mean_load(const Joint& joint, double h) {
+  return {joint.impulse.force / h, joint.impulse.torque / h};
+}
 
 /// The live joint of a valid definition whose bodies exist. Angles start within half a turn.
 Joint make_joint(const JointDef& def, const BodySet& bodies);

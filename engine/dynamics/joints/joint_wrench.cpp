@@ -126,7 +126,7 @@ void add_coordinate_wrench(const Joint& joint, size_t coordinate, double force,
   out.torque += more.torque;
 }
 
-JointWrench mean_wrench(const Joint& joint, const JointSides& sides) {
+JointWrench wrench_of_rows(const Joint& joint, const JointSides& sides) {
   JointRows rows;
   joint_rows(joint.kind, sides, rows);
   if (joint.drives)
@@ -149,7 +149,11 @@ double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> 
 
 void take_least_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
                        std::span<double> forces) {
-  if (joints.dependent_rows() == 0) return;
+  if (joints.dependent_rows() > 0) spread_forces(joints, blocks, arm, forces);
+}
+
+void spread_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
+                   std::span<double> forces) {
   const ScaledRows rows(joints, blocks, arm);
   std::vector<double> given(forces.size()), least(forces.size(), 0.0);
   for (size_t r = 0; r < given.size(); ++r) given[r] = rows.unit(r) * forces[r];

@@ -265,7 +265,7 @@ void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
         done.impulse = impulse * line.linear;
         done.moment_a = impulse * line.angular_a;
         done.moment_b = impulse * line.angular_b;
-        island.joints[c.block[half]].sum.add(done);
+        island.joints[c.block[half]].add(done);
       }
     }
     if (pass == JointPass::moving) all.now += hs;

@@ -29,6 +29,7 @@ struct JointBlock {
   uint32_t first_drive = 0;  ///< index of the DriveRow of its first coordinate row
   bool coupled = false;      ///< solved together with others: see CoupledJoints
   std::array<Line, most> lines;
+  Vec3 arm_b = Vec3::Zero();  ///< from B's centre of mass to its anchor, where `lines` are [m]
   /// K = J M^-1 J^T as L D L^T: L below the diagonal, 1/D on it (0 for linearly dependent rows).
   /// Only the kept rows are eliminated; the block of the coordinates is what remains of K, their
   /// compliance.
@@ -49,6 +50,11 @@ struct JointBlock {
   double& impulse(uint32_t row, JointPass pass) {
     if (pass == JointPass::relaxing) return relaxing[row];
     return pass == JointPass::correcting && row < kept ? correcting[row] : moving[row];
+  }
+  /// Adds what its rows or couplings do in a pass to the sum.
+  void add(JointPush push) {
+    push.twist = push.moment_b - arm_b.cross(push.impulse);
+    sum.add(push);
   }
   /// The whole impulse of a row before the bodies move (`moving`, `correcting`), or after it
   /// (`relaxing`).

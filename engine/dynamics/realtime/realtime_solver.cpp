@@ -187,14 +187,16 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 
 namespace {
 
-/// Adds up the impulses of the islands' joints, and updates the values of their coordinates after
-/// `c.h`.
+/// Adds up the impulses of the islands' joints over the tick so far, and updates the values of
+/// their coordinates after `c.h`.
 void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew) {
   const std::span<const uint32_t> which = islands.joints;
   for_chunks(&crew, which.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t k : which.subspan(first, last - first)) {
       Joint& joint = c.joints[k];
-      joint.push.add(c.joint_pushes[k]);
+      if (c.passed == 0) joint.impulse = {};
+      joint.impulse.force += c.joint_pushes[k].impulse;
+      joint.impulse.torque += c.joint_pushes[k].twist;
       if (joint.followed()) follow_coordinates(joint, c.bodies, c.h, true);
     }
   });

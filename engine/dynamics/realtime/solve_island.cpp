@@ -35,6 +35,17 @@ bool bounce(const SolverContext& c, const SolverIsland& island, double hs, doubl
   return true;
 }
 
+/// Softness lets sweeps converge that solve one part of a mechanism after the other. An island that
+/// couplings make a single block of has no other part: it is solved exactly, and only the rate at
+/// which errors are removed is that of others.
+Softness softness_of(const SolverIsland& island, double hs) {
+  const bool alone = island.rows.empty() && island.springs.empty() && island.coupled.size() == 1 &&
+                     island.coupled.front().joints.size() == island.joints.size();
+  Softness out = joint_softness(hs);
+  if (alone) out.mass_scale = 1, out.impulse_scale = 0;
+  return out;
+}
+
 /// To be called after the relaxing pass.
 void end_substep(const SolverIsland& island, double hs, bool bounced) {
   sum_joints(island, hs, JointPass::relaxing);
@@ -67,7 +78,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   // of second order. Contacts need all of the force before them, or they would open in between.
   const bool halves = island.rows.empty() && island.springs.empty();
   const double kick = island.kick = halves ? 0.5 * hs : hs;
-  island.joint_softness = joint_softness(hs);
+  island.joint_softness = softness_of(island, hs);
   prepare_rows(c, island, hs);
   prepare_springs(c, island);
   prepare_joints(c, island, hs);

@@ -184,7 +184,7 @@ void add_drives(const Joint& from, size_t first, JointBlock& joint, std::vector<
 
 void sum_joints(const SolverIsland& island, double hs, JointPass pass) {
   for (JointBlock& joint : island.joints) {
-    joint.sum.add(push_of(joint, [&](uint32_t i) { return joint.total(i, pass); }));
+    joint.add(push_of(joint, [&](uint32_t i) { return joint.total(i, pass); }));
     for (DriveRow& d : drives_of(island, joint)) {
       d.add_up();
       if (pass == JointPass::moving)
@@ -231,6 +231,7 @@ void refresh_joints(const SolverContext& c, const SolverIsland& island, double h
     const bool axes = kind.uses_axes || from.drives;
     const JointSides sides{side_now(c, island, from.a, joint.a, from.frame_a, axes),
                            side_now(c, island, from.b, joint.b, from.frame_b, axes), from.length};
+    joint.arm_b = sides.b.arm;
     rows.clear();
     joint_rows(from.kind, sides, rows);
     refresh_drives(island, hs, kind, sides, joint);

@@ -1,12 +1,15 @@
 #include "engine/scene/build/assembly.hpp"
 
 #include "engine/core/stop.hpp"
+#include "engine/math/det/det.hpp"
 #include "engine/math/rotation.hpp"
 #include "engine/scene/build/jointed_bodies.hpp"
+#include "engine/scene/build/least_motion.hpp"
 #include "engine/world/world.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -25,77 +28,77 @@ constexpr double not_told = 1e-9;
 /// body [rad].
 constexpr int most_steps = 200;
 constexpr double longest_turn = 0.5;
-/// Greatest number of halvings of a step before giving up.
-constexpr int most_halvings = 30;
-/// Greatest number of rounds in which violated limits are added.
-constexpr int most_limit_rounds = 20;
 
 struct BodyStart {
   Pose pose;
   Vec3 v, omega;
 };
 
+/// Axis times angle of a rotation, of at most half a turn [rad].
+Vec3 rotation_vector(const Quat& q) {
+  const double sine = q.vec().norm();
+  if (!(sine > 0)) return Vec3::Zero();
+  const double sign = q.w() < 0 ? -1 : 1;
+  return sign * 2 * det::atan2(sine, sign * q.w()) / sine * q.vec();
+}
+
+/// The greatest displacement or turn of a body.
+double length_of(std::span<const DofBlock> way) {
+  double most = 0;
+  for (const DofBlock& b : way) most = std::max({most, b.v.norm(), b.omega.norm()});
+  return most;
+}
+
+/// No body turns farther than Newton's steps may.
+void cut_turns(std::span<DofBlock> way) {
+  double turn = 0;
+  for (const DofBlock& b : way) turn = std::max(turn, b.omega.norm());
+  if (turn > longest_turn)
+    for (DofBlock& b : way) b.v *= longest_turn / turn, b.omega *= longest_turn / turn;
+}
+
 class Assembly {
  public:
-  explicit Assembly(const BuiltScene& built)
-      : held_(built), slots_(first_numbers(held_.bodies.size())) {
+  explicit Assembly(const BuiltScene& built) : held_(built), least_(held_) {
     for (const RigidBody& b : held_.bodies) {
       start_.push_back({b.pose, b.v, b.omega});
       size_ = std::max(size_, b.pose.x.norm());
     }
   }
 
-  /// Closes all joints; false if some remain open.
+  /// False: joints are left open, or limits passed.
   bool close_all() {
-    for (int round = 0; round < most_limit_rounds && !stop_requested(); ++round) {
-      renew_rows();
-      if (!close_joints()) return false;
-      if (!add_passed_limits()) return true;
-    }
-    return false;
+    if (!fit()) return false;
+    settle();
+    return true;
   }
 
   void hold_velocities() {
-    std::vector<DofBlock> moving = blocks_of(held_.bodies, slots_);
-    rows_.update(held_.bodies, moving);
-    double off = 0, fastest = 1;
-    for (const DofBlock& b : moving) fastest = std::max({fastest, b.v.norm(), b.omega.norm()});
-    for (size_t i = 0; i < rows_.size(); ++i)
-      off = std::max(off, std::fabs(rows_.rate_off(i, moving)));
-    if (off <= closed * fastest * size_) return;
-    std::vector<double> impulses(rows_.size(), 0);
-    rows_.hold_velocities(moving, impulses);
-    for (size_t i = 0; i < moving.size(); ++i) {
+    const std::vector<DofBlock> before = blocks_of(held_.bodies, slots_);
+    double fastest = 1;
+    for (const DofBlock& b : before) fastest = std::max({fastest, b.v.norm(), b.omega.norm()});
+    const double rounding = closed * fastest * size_;
+    const std::vector<DofBlock> now = least_.velocity(before, rounding);
+    std::vector<DofBlock> change = now;
+    for (size_t i = 0; i < change.size(); ++i)
+      change[i].v -= before[i].v, change[i].omega -= before[i].omega;
+    if (length_of(change) <= rounding) return;
+    for (size_t i = 0; i < now.size(); ++i) {
       if (!held_.bodies[i].dynamic()) continue;
-      held_.bodies[i].v = moving[i].v;
-      held_.bodies[i].omega = moving[i].omega;
+      held_.bodies[i].v = now[i].v;
+      held_.bodies[i].omega = now[i].omega;
     }
   }
 
-  /// After close_all() returned false: a fault for each joint that is open, or, if all are closed,
-  /// one about the limits that are still violated.
+  /// After close_all() gave false: a fault for each joint that is open or of which a limit is
+  /// passed.
   std::vector<std::pair<std::string, std::string>> faults() const;
   void tell(const World& world, std::vector<std::string>& out) const;
   void put(World& world) const;
 
  private:
-  std::vector<std::pair<std::string, std::string>> open_joints() const;
-  std::pair<std::string, std::string> passed_limits() const;
-
-  void renew_rows() {
-    const std::vector<uint32_t> joints = first_numbers(held_.joints.size());
-    const std::vector<uint32_t> couplings = first_numbers(held_.couplings.size());
-    rows_ = Articulation({held_.joints, held_.couplings}, {joints, couplings}, held_.block_of,
-                         held_.bodies, held_.bodies.size(), Articulation::Drives::none);
-  }
-
-  /// Sum of the squared errors at the present poses.
-  double square_error() {
-    rows_.look(held_.bodies);
-    double sum = 0;
-    for (const JointRow& row : rows_.rows()) sum += row.error * row.error;
-    return sum;
-  }
+  void open_joints(std::vector<std::pair<std::string, std::string>>& out) const;
+  void passed_limits(std::vector<std::pair<std::string, std::string>>& out) const;
 
   void move_from(const std::vector<RigidBody>& from, std::span<const DofBlock> way, double share) {
     for (size_t i = 0; i < from.size(); ++i) {
@@ -103,80 +106,92 @@ class Assembly {
       held_.bodies[i].pose.x = from[i].pose.x + share * way[i].v;
       held_.bodies[i].pose.q = integrate_rotation(from[i].pose.q, share * way[i].omega, 1);
     }
+    least_.look();
   }
 
-  /// The Newton step from the present poses, with limited length.
-  std::vector<DofBlock> newton_step() {
-    std::vector<DofBlock> way(held_.bodies.size());
-    put_masses(held_.bodies, slots_, way);
-    rows_.factor(way);
-    std::vector<double> pushes(rows_.size(), 0);
-    rows_.close(way, pushes);
-    double turn = 0;
-    for (const DofBlock& b : way) turn = std::max(turn, b.omega.norm());
-    if (turn > longest_turn)
-      for (DofBlock& b : way) b.v *= longest_turn / turn, b.omega *= longest_turn / turn;
-    return way;
-  }
-
-  bool close_joints() {
-    double now = square_error();
+  /// Newton's method, from where the bodies are: false if joints stay open or limits passed.
+  bool fit() {
+    least_.look();
+    double now = least_.square_misfit();
     for (int n = 0; n < most_steps && !stop_requested(); ++n) {
-      if (rows_.error() <= closed_well * size_) return true;
+      if (least_.misfit() <= closed_well * size_) return true;
       const std::vector<RigidBody> from = held_.bodies;
-      const std::vector<DofBlock> way = newton_step();
-      double share = 1, next = now;
-      for (int k = 0; k < most_halvings; ++k, share *= 0.5) {
+      std::vector<DofBlock> way =
+          least_.displacement(std::vector<DofBlock>(from.size()), closed_well * size_);
+      cut_turns(way);
+      const double length = length_of(way);
+      double next = now;
+      for (double share = 1; share * length > closed_well * size_ && !(next < now); share *= 0.5) {
         move_from(from, way, share);
-        next = square_error();
-        if (next < now) break;
+        next = least_.square_misfit();
       }
       if (!(next < now)) {
         held_.bodies = from;
-        square_error();
+        least_.look();
         break;
       }
       now = next;
     }
-    return rows_.error() <= closed * size_;
+    return least_.misfit() <= closed * size_;
   }
 
-  /// A coordinate beyond a hard limit is fixed at the limit by a coupling x = 0 y + limit.
-  bool add_passed_limits() {
-    first_passed_ = held_.couplings.size();
-    for (uint32_t j = 0; j < held_.joints.size(); ++j) {
-      Joint joint = held_.joints[j];
-      follow_coordinates(joint, held_.bodies, 0);
-      for (uint32_t k = 0; k < entry_of(joint.kind).coordinates.size(); ++k) {
-        const CoordinateLimits& l = (*joint.drives)[k].limits;
-        const double x = joint.value[k], limit = x < l.lower ? l.lower : l.upper;
-        const bool passed = x < l.lower - closed * size_ || x > l.upper + closed * size_;
-        if (!l.hard() || !passed) continue;
-        held_.couplings.push_back({j, j, k, k, 0, limit});
-      }
+  /// The way from where the bodies are back to where they stood.
+  std::vector<DofBlock> way_back() const {
+    std::vector<DofBlock> out(start_.size());
+    for (size_t i = 0; i < out.size(); ++i) {
+      const RigidBody& b = held_.bodies[i];
+      if (!b.dynamic()) continue;
+      out[i].v = start_[i].pose.x - b.pose.x;
+      out[i].omega = rotation_vector(start_[i].pose.q * b.pose.q.conjugate());
     }
-    return held_.couplings.size() > first_passed_;
+    return out;
+  }
+
+  /// From a state that fits to the nearest one to the start: each step is what of the way back the
+  /// joints and limits allow, and is followed by Newton's method. Where no step shortens the way
+  /// any more but by rounding, those that make the next one shorter still count.
+  void settle() {
+    double far = least_.square(way_back()), last = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < most_steps && far > 0 && !stop_requested(); ++n) {
+      const std::vector<RigidBody> from = held_.bodies;
+      std::vector<DofBlock> way = least_.displacement(way_back(), closed_well * size_);
+      cut_turns(way);
+      const double length = length_of(way);
+      if (!(length < last) || length <= closed_well * size_) return;
+      double share = 1, next = far;
+      for (bool found = false; !found; share *= 0.5) {
+        if (share * length <= closed_well * size_) {
+          held_.bodies = from;
+          least_.look();
+          return;
+        }
+        move_from(from, way, share);
+        found = fit();
+        next = least_.square(way_back());
+        found = found && next <= far * (1 + closed_well);
+      }
+      last = next < far * (1 - closed_well) ? std::numeric_limits<double>::infinity() : length;
+      far = next;
+    }
   }
 
   JointedBodies held_;
-  std::vector<uint32_t> slots_;
+  LeastMotion least_;
+  std::vector<uint32_t> slots_ = first_numbers(held_.bodies.size());
   std::vector<BodyStart> start_;
   double size_ = 1;  ///< [m]
-  /// The couplings from this index on are limits added in the last round.
-  size_t first_passed_ = 0;
-  Articulation rows_;
 };
 
-std::vector<std::pair<std::string, std::string>> Assembly::open_joints() const {
-  std::vector<std::pair<std::string, std::string>> out;
+void Assembly::open_joints(std::vector<std::pair<std::string, std::string>>& out) const {
+  const Articulation& rows = least_.equations();
   size_t end = 0;
-  for (size_t i = 0; i < rows_.size(); i = end) {
-    const HeldRow& first = rows_.held()[i];
+  for (size_t i = 0; i < rows.size(); i = end) {
+    const HeldRow& first = rows.held()[i];
     double apart = 0, turned = 0;
-    for (end = i; end < rows_.size() && rows_.held()[end].use == first.use &&
-                  rows_.held()[end].owner == first.owner;
+    for (end = i; end < rows.size() && rows.held()[end].use == first.use &&
+                  rows.held()[end].owner == first.owner;
          ++end) {
-      const JointRow& row = rows_.rows()[end];
+      const JointRow& row = rows.rows()[end];
       double& sum = row.row.a.linear.isZero(0) && row.row.b.linear.isZero(0) ? turned : apart;
       sum = std::hypot(sum, row.error);
     }
@@ -192,25 +207,28 @@ std::vector<std::pair<std::string, std::string>> Assembly::open_joints() const {
         fmt::format("cannot be assembled: {} stay{} open by {}, however its bodies are "
                     "moved from where they are (place them nearer to where they fit, "
                     "or make lengths and limits that do)",
-                    couples ? "its coupling or limit" : "its ends", couples ? "s" : "", left));
+                    couples ? "its coupling" : "its ends", couples ? "s" : "", left));
   }
-  return out;
 }
 
-std::pair<std::string, std::string> Assembly::passed_limits() const {
-  std::string names;
-  for (size_t i = first_passed_; i < held_.couplings.size(); ++i)
-    names += (names.empty() ? "" : ", ") + held_.names[held_.couplings[i].a];
-  return {"joints",
-          fmt::format("cannot be assembled: with the joints closed and limits kept {} times over, "
-                      "limits of {} are still passed (place the bodies nearer to where they fit, "
-                      "or make limits that do)",
-                      most_limit_rounds, names)};
+void Assembly::passed_limits(std::vector<std::pair<std::string, std::string>>& out) const {
+  for (const KeptLimit& l : least_.limits()) {
+    const double passed = least_.passed(l);
+    if (passed <= closed * size_) continue;
+    const JointCoordinate& c = entry_of(held_.joints[l.joint].kind).coordinates[l.coordinate];
+    out.emplace_back(
+        "joints." + held_.names[l.joint],
+        fmt::format("cannot be assembled: its {} limit stays passed by {:.3g} {}, however its "
+                    "bodies are moved from where they are (place them nearer to where they fit, "
+                    "or make lengths and limits that do)",
+                    l.sign > 0 ? "lower" : "upper", passed, c.angle ? "rad" : "m"));
+  }
 }
 
 std::vector<std::pair<std::string, std::string>> Assembly::faults() const {
-  auto out = open_joints();
-  if (out.empty()) out.push_back(passed_limits());
+  std::vector<std::pair<std::string, std::string>> out;
+  open_joints(out);
+  passed_limits(out);
   return out;
 }
 

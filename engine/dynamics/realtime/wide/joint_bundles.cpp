@@ -125,6 +125,7 @@ void JointBundles::stage_bundle(const SolverContext& c, const Bundle& bundle, ui
   out.any_uneven = false;
   out.uneven = {};
   out.impulse = out.moment_a = out.moment_b = {};
+  if (hinge) hinge->twist = {};
   for (size_t lane = 0; lane < wide_lanes; ++lane) {
     if (lane >= bundle.lanes) {
       stage_nothing(lane, fixed, out, hinge);
@@ -169,6 +170,8 @@ void JointBundles::store(const SolverContext& c, WideRange bundles, double hs,
       }
       if (from.hinge == WideJoint::no_hinge) continue;
       const WideHinge& hinge = rows.hinges[from.hinge];
+      if (!c.joint_pushes.empty())
+        c.joint_pushes[from.source[lane]].twist = doubles_of(hinge.twist, lane);
       for (size_t k = 0; k < 2; ++k) {
         to.moving_force[3 + k] = rate * double(hinge.moving[k][lane]);
         to.relaxing_force[3 + k] = rate * double(hinge.relaxing[k][lane]);

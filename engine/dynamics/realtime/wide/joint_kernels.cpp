@@ -135,7 +135,7 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
   const bool moving = pass == JointPass::moving;
   for (uint32_t i = range.begin; i < range.end; ++i) {
     WideJoint& j = rows.joints[i];
-    const WideHinge* h = hinge_of(rows, j);
+    WideHinge* h = hinge_of(rows, j);
     for (size_t lane = 0; lane < j.lanes; lane += step_lanes) {
       const V P = moving ? load(j.moving, lane) + load(j.correcting, lane) : load(j.relaxing, lane);
       if (h) {
@@ -145,6 +145,7 @@ void SumJoints(WideRows& rows, WideRange range, JointPass pass) {
         };
         const V T = moment(*h, lane, twist(0), twist(1));
         add_push(j, lane, P, &T);
+        add(T, h->twist, lane);
       } else {
         add_push(j, lane, P, nullptr);
       }

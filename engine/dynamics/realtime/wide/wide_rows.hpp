@@ -125,6 +125,7 @@ struct WideJoint {
 struct WideHinge {
   LaneVec x_a, y_a, z_b;        ///< those axes at the start of the tick, world axes
   std::array<LaneVec, 2> turn;  ///< Jacobian at present: on B; the negative on A
+  LaneVec twist;                ///< JointPush::twist of the sub-steps so far
   std::array<LaneFloats, 2> target, correction;            ///< as those of WideJoint [rad/s]
   std::array<LaneFloats, 9> factor;                        ///< the last two rows of the triangle
   std::array<LaneFloats, 2> moving, correcting, relaxing;  ///< [N m s]
