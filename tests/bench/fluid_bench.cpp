@@ -45,7 +45,8 @@ void run(const FluidSolverName& solver, const FluidRun& options) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
   const double steps = sub_steps * double(tank.x.size());
   double height = 0, front = 0;
-  for (const Vec3& x : tank.x) height += x[1] / double(tank.x.size()), front = std::max(front, x[0]);
+  for (const Vec3& x : tank.x)
+    height += x[1] / double(tank.x.size()), front = std::max(front, x[0]);
   std::printf(
       "%s: %zu particles, %.0f sub-steps, %.0f thousand particle-steps a second (%.0f a second of "
       "processor time), iterations %.2f + %.2f, pairs %.1f, density error %.3f %%, mean height "

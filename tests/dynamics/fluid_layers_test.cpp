@@ -154,8 +154,9 @@ TEST_CASE("one fluid that is called two is one fluid, for any number of threads"
     }
     for (int k = 0; k < 5; ++k) REQUIRE(tank.step());
     if (one.empty()) one = tank.x;
-    // What a particle's own pressure opens is summed in another order.
-    for (size_t i = 0; i < one.size(); ++i) CHECK((one[i] - tank.x[i]).norm() < 1e-6);
+    // What a particle's own pressure opens is summed in another order. Iterations in single
+    // precision spread that to a hundred-thousandth of a spacing in each of some twenty sub-steps.
+    for (size_t i = 0; i < one.size(); ++i) CHECK((one[i] - tank.x[i]).norm() < 1e-5);
     if (threads == 2) one = tank.x;
     if (threads == 4) CHECK(one == tank.x);
   }

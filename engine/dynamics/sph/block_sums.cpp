@@ -30,13 +30,11 @@ struct Quad {
   }
   static HWY_INLINE Quad load(const SingleVector& v) {
     Quad q;
-    for (size_t k = 0; k < quad_parts; ++k)
-      q.parts[k] = hn::Load(QuadTag(), &v.x + k * quad_lanes);
+    for (size_t k = 0; k < quad_parts; ++k) q.parts[k] = hn::Load(QuadTag(), &v.x + k * quad_lanes);
     return q;
   }
   HWY_INLINE void store(SingleVector& to) const {
-    for (size_t k = 0; k < quad_parts; ++k)
-      hn::Store(parts[k], QuadTag(), &to.x + k * quad_lanes);
+    for (size_t k = 0; k < quad_parts; ++k) hn::Store(parts[k], QuadTag(), &to.x + k * quad_lanes);
   }
   HWY_INLINE SingleVector numbers() const {
     SingleVector v;
@@ -100,9 +98,8 @@ class BlockPoints {
     for (size_t k = 0; k < quad_parts; ++k) {
       const auto d =
           hn::Sub(hn::Load(Tag(), centre + k * lanes), hn::Load(Tag(), centre_ + k * lanes));
-      q.parts[k] =
-          hn::Add(q.parts[k],
-                  hn::DemoteTo(Half(), hn::Mul(d, hn::Load(Tag(), per_unit_ + k * lanes))));
+      q.parts[k] = hn::Add(
+          q.parts[k], hn::DemoteTo(Half(), hn::Mul(d, hn::Load(Tag(), per_unit_ + k * lanes))));
     }
     return q;
   }

@@ -218,8 +218,8 @@ Status make_blocks(FluidState& s) {
   });
   if (!fine)
     return Error{ErrorCode::numeric,
-               fmt::format("a particle has more than {} neighbours", FluidBlocks::most_rows),
-               "fluid", "raise tick_hz, or look for what presses the fluid together"};
+                 fmt::format("a particle has more than {} neighbours", FluidBlocks::most_rows),
+                 "fluid", "raise tick_hz, or look for what presses the fluid together"};
   s.first_block.clear();
   s.block_centres.clear();
   for (const FluidBlocks& blocks : s.blocks) {

@@ -88,12 +88,12 @@ struct FluidState {
   std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;
 
-  std::vector<FluidPairStore> stores;         ///< by chunk
-  std::vector<FluidPairStore::Range> ranges;  ///< by place
-  std::vector<uint32_t> store_of;             ///< likewise
-  std::vector<FluidBlocks> blocks;            ///< by chunk; of `dfsph`
-  std::vector<uint32_t> first_block;          ///< by chunk, of all blocks
-  std::vector<FluidVector> block_centres;     ///< of all [m]
+  std::vector<FluidPairStore> stores;               ///< by chunk
+  std::vector<FluidPairStore::Range> ranges;        ///< by place
+  std::vector<uint32_t> store_of;                   ///< likewise
+  std::vector<FluidBlocks> blocks;                  ///< by chunk; of `dfsph`
+  std::vector<uint32_t> first_block;                ///< by chunk, of all blocks
+  std::vector<FluidVector> block_centres;           ///< of all [m]
   mutable std::vector<BlockScratch> block_scratch;  ///< by chunk
   PressureOperands pressure_operands;
 

@@ -60,13 +60,16 @@ class PressureForces {
         }
       }
     });
-    operands_ = {length, s.block_centres.data(), corrected_ ? to.matrices.data() : nullptr, to.flows.data(), to.weights.data(), to.gradients.data()};
+    operands_ = {length,          s.block_centres.data(), corrected_ ? to.matrices.data() : nullptr,
+                 to.flows.data(), to.weights.data(),      to.gradients.data()};
   }
 
   void find() {
     FluidState& s = s_;
     const double scale = s.kernel.scale();
-    s.each([&](size_t p) { s.pressure_operands.weights[p] = float(scale * s.volume[p] * pressure_[p]); });
+    s.each([&](size_t p) {
+      s.pressure_operands.weights[p] = float(scale * s.volume[p] * pressure_[p]);
+    });
     s.each_block([&](const FluidBlock& block, BlockScratch& scratch) {
       press_block(operands_, block, scratch);
     });
