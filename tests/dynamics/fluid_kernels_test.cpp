@@ -1,9 +1,11 @@
 // Reference: integrals by cubature over fine grids, differences of values, and sums term by term.
 #include "engine/core/random.hpp"
 #include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
+#include "engine/dynamics/sph/block_sums.hpp"
 #include "engine/dynamics/sph/fluid_sums.hpp"
 #include "engine/dynamics/sph/wall_integrals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -272,6 +274,148 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         CHECK(bits == now);
       }
       hwy::SetSupportedTargetsForTest(0);
+    }
+  }
+}
+
+namespace {
+
+/// A cloud of particles far from the origin, and all that sums over its blocks are of.
+struct BlockCloud {
+  SmoothingKernel kernel{FluidKernelKind::cubic_spline, 0.25};
+  NeighbourLists lists;
+  std::vector<FluidVector> points, centres;
+  std::vector<Mat3> correction;
+  std::vector<BlockMatrix> matrices;
+  std::vector<BlockFlow> flows;
+  std::vector<float> weights;
+  std::vector<SingleVector> gradients;
+  FluidBlocks blocks;
+
+  explicit BlockCloud(size_t n) {
+    Random r(5);
+    std::vector<Vec3> x(n);
+    for (Vec3& p : x) p = Vec3(r.uniform(200, 203), r.uniform(-70, -69), r.uniform(0, 1));
+    REQUIRE(lists.update(x, {.reach = kernel.reach(), .skin = 0, .box = {}}, nullptr));
+    for (size_t k = 0; k < lists.places(); ++k)
+      points.push_back({lists.x()[k], lists.y()[k], lists.z()[k], k < n ? 1.0 : 0.0});
+    size_t most = 0;
+    for (size_t p = 0; p < n; ++p) most += lists.of(p).size();
+    FluidPairStore store;
+    store.clear(kernel, most);
+    std::vector<FluidPairStore::Range> ranges;
+    for (size_t p = 0; p < n; ++p)
+      ranges.push_back(
+          find_pairs(kernel, FluidMoments::left_out, points, p, lists.of(p), store).range);
+    REQUIRE(blocks.make(store, 0, ranges, points, kernel.reach()));
+    matrices.resize(n), flows.resize(n);
+    const auto draw = [&] { return float(r.uniform(-1, 1)); };
+    for (size_t b = 0; b < blocks.size(); ++b) {
+      const Vec3 c = blocks[b].centre;
+      centres.push_back({c[0], c[1], c[2], 0});
+      for (size_t k = 0; k < blocks[b].ends.size(); ++k) {
+        const size_t p = blocks[b].first + k;
+        const Vec3 at = (points[p].vector() - c) / kernel.reach();
+        flows[p].at = matrices[p].at = {float(at[0]), float(at[1]), float(at[2]), float(b)};
+        flows[p].u = {draw(), draw(), draw(), 0};
+        weights.push_back(float(r.uniform(0, 1)));
+        gradients.push_back({draw(), draw(), draw(), float(r.uniform(0.5, 1))});
+        const float xx = draw(), xy = draw(), xz = draw(), yy = draw(), yz = draw(), zz = draw();
+        matrices[p].correction[0] = {xx, xy, xz, 0};
+        matrices[p].correction[1] = {xy, yy, yz, 0};
+        matrices[p].correction[2] = {xz, yz, zz, 0};
+        correction.push_back(Mat3{xx, xy, xz, xy, yy, yz, xz, yz, zz});
+      }
+    }
+  }
+  BlockOperands operands(bool corrected) {
+    return {kernel.reach(), centres.data(), corrected ? matrices.data() : nullptr,
+            flows.data(),   weights.data(), gradients.data()};
+  }
+  static Vec3 vector(const SingleVector& v) { return {double(v.x), double(v.y), double(v.z)}; }
+  /// f(other, slope in units of the store, way from it in reaches) for what is in reach of p.
+  template <class F>
+  void each_in_reach(size_t p, const F& f) const {
+    for (size_t q = 0; q < flows.size(); ++q) {
+      const Vec3 d = points[p].vector() - points[q].vector();
+      const double r = d.norm(), reach = kernel.reach();
+      if (q == p || r >= reach) continue;
+      f(q, kernel.slope(r) / r * reach * reach / kernel.scale(), Vec3(d / reach));
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("blocks have each particle once, and each of its neighbours in a row") {
+  const BlockCloud cloud(2000);
+  CHECK(cloud.blocks.size() > 7);
+  size_t next = 0;
+  for (size_t b = 0; b < cloud.blocks.size(); ++b) {
+    const FluidBlock block = cloud.blocks[b];
+    CHECK(block.first == next);
+    next += block.ends.size();
+    std::vector<uint32_t> rows(block.rows.begin(), block.rows.end());
+    std::sort(rows.begin(), rows.end());
+    CHECK(std::adjacent_find(rows.begin(), rows.end()) == rows.end());
+    size_t k = 0;
+    for (size_t n = 0; n < block.ends.size(); ++n) {
+      std::vector<uint32_t> found, expected;
+      for (; k < block.ends[n]; ++k)
+        if (block.slopes[k] != 0) found.push_back(block.rows[block.others[k]]);
+      cloud.each_in_reach(block.first + n,
+                          [&](size_t q, double, const Vec3&) { expected.push_back(uint32_t(q)); });
+      std::sort(found.begin(), found.end());
+      CHECK(found == expected);
+    }
+  }
+  CHECK(next == cloud.flows.size());
+}
+
+TEST_CASE("sums over blocks are those pair by pair, for every instruction set") {
+  BlockCloud cloud(1000);
+  const std::vector<BlockFlow> given = cloud.flows;
+  for (const bool corrected : {false, true}) {
+    CAPTURE(corrected);
+    const auto matrix = [&](size_t p) {
+      return corrected ? cloud.correction[p] : Mat3(Mat3::Identity());
+    };
+    std::vector<float> bits;
+    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      cloud.flows = given;
+      const BlockOperands of = cloud.operands(corrected);
+      BlockScratch scratch;
+      std::vector<float> now;
+      for (size_t b = 0; b < cloud.blocks.size(); ++b) {
+        const FluidBlock block = cloud.blocks[b];
+        std::vector<float> rates(block.ends.size());
+        open_block(of, block, rates.data(), scratch);
+        now.insert(now.end(), rates.begin(), rates.end());
+      }
+      // These make flows anew: the rates above were of those that were given.
+      for (size_t b = 0; b < cloud.blocks.size(); ++b) press_block(of, cloud.blocks[b], scratch);
+      for (const BlockFlow& flow : cloud.flows)
+        now.insert(now.end(), {flow.u.x, flow.u.y, flow.u.z});
+      if (bits.empty()) bits = now;
+      CHECK(bits == now);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    const size_t n = given.size();
+    for (size_t p = 0; p < n; p += 3) {
+      const Vec3 g = BlockCloud::vector(cloud.gradients[p]), own = BlockCloud::vector(given[p].u);
+      Vec3 force = double(cloud.weights[p]) * g;
+      double rate = own.dot(g), terms = 1;
+      cloud.each_in_reach(p, [&](size_t q, double f, const Vec3& d) {
+        force += f * double(cloud.weights[q]) * matrix(q) * d;
+        rate -= f * BlockCloud::vector(given[q].u).dot(matrix(p) * d);
+        terms += std::abs(f) * d.norm();
+      });
+      const Vec3 flow = -double(cloud.gradients[p].w) * force,
+                 found(double(bits[n + 3 * p]), double(bits[n + 3 * p + 1]),
+                       double(bits[n + 3 * p + 2]));
+      CHECK(std::abs(double(bits[p]) - rate) < 5e-6 * terms);
+      CHECK((found - flow).norm() < 5e-6 * terms);
     }
   }
 }

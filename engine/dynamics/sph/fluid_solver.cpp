@@ -101,6 +101,8 @@ class FluidTickRun {
     find_surroundings(s);
     if (stop_requested()) return stopped_error();
     const bool implicit = s.common.solver == FluidSolverKind::dfsph;
+    if (implicit)
+      if (Status made = make_blocks(s); !made) return made;
     if (s.corrects()) find_corrections(s);
     if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });

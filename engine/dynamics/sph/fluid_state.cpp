@@ -4,8 +4,11 @@
 #include "engine/dynamics/sph/wall_integrals.hpp"
 #include "engine/math/rotation.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace tumble {
 
@@ -201,6 +204,35 @@ void find_surroundings(FluidState& s) {
     s.diagonal[p] +=
         s.gradient[p].squaredNorm() / s.density[p] + body_diagonal(s, p, &WallTouch::gradient);
   });
+}
+
+Status make_blocks(FluidState& s) {
+  s.blocks.resize(chunk_count);
+  for (FluidBlocks& blocks : s.blocks) blocks.clear();
+  s.block_scratch.resize(chunk_count);
+  std::atomic<bool> fine = true;
+  for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
+    if (!s.blocks[chunk].make(s.stores[chunk], first, {s.ranges.data() + first, last - first},
+                              {s.at.data(), s.lists.places()}, s.kernel.reach()))
+      fine.store(false, std::memory_order_relaxed);
+  });
+  if (!fine)
+    return Error{ErrorCode::numeric,
+                 fmt::format("a particle has more than {} neighbours", FluidBlocks::most_rows),
+                 "fluid", "raise tick_hz, or look for what presses the fluid together"};
+  s.first_block.clear();
+  s.block_centres.clear();
+  for (const FluidBlocks& blocks : s.blocks) {
+    s.first_block.push_back(uint32_t(s.block_centres.size()));
+    for (size_t k = 0; k < blocks.size(); ++k) {
+      const Vec3 c = blocks[k].centre;
+      s.block_centres.push_back({c[0], c[1], c[2], 0});
+    }
+  }
+  PressureOperands& to = s.pressure_operands;
+  to.matrices.resize(s.size()), to.flows.resize(s.size());
+  to.weights.resize(s.size()), to.gradients.resize(s.size());
+  return {};
 }
 
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 #include "engine/core/chunks.hpp"
 #include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
+#include "engine/dynamics/sph/block_sums.hpp"
+#include "engine/dynamics/sph/fluid_blocks.hpp"
 #include "engine/dynamics/sph/fluid_solver.hpp"
 #include "engine/dynamics/sph/fluid_sums.hpp"
 
@@ -32,6 +34,14 @@ struct FluidBodyState {
 
 /// A force and torque about a body's centre, or impulses, or what they make of its velocities.
 using Wrench = FluidPush;
+
+/// By place: see BlockOperands.
+struct PressureOperands {
+  std::vector<BlockMatrix> matrices;
+  std::vector<BlockFlow> flows;
+  std::vector<float> weights;
+  std::vector<SingleVector> gradients;
+};
 
 /// Fluid and bodies in a sub-step. Particles are by place: see NeighbourLists.
 struct FluidState {
@@ -78,9 +88,14 @@ struct FluidState {
   std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;
 
-  std::vector<FluidPairStore> stores;         ///< by chunk
-  std::vector<FluidPairStore::Range> ranges;  ///< by place
-  std::vector<uint32_t> store_of;             ///< likewise
+  std::vector<FluidPairStore> stores;               ///< by chunk
+  std::vector<FluidPairStore::Range> ranges;        ///< by place
+  std::vector<uint32_t> store_of;                   ///< likewise
+  std::vector<FluidBlocks> blocks;                  ///< by chunk; of `dfsph`
+  std::vector<uint32_t> first_block;                ///< by chunk, of all blocks
+  std::vector<FluidVector> block_centres;           ///< of all [m]
+  mutable std::vector<BlockScratch> block_scratch;  ///< by chunk
+  PressureOperands pressure_operands;
 
   size_t size() const { return lists.size(); }
   const FluidDef& def(size_t p) const { return *defs[fluid[p]]; }
@@ -138,6 +153,26 @@ struct FluidState {
   void each_with_pairs(FluidFactor factor, const Terms& y, const double* q, const F& f) const {
     sum_with_pairs(factor, y, q, [&](size_t p, const auto& sum) {
       f(p, sum);
+      return 0.0;
+    });
+  }
+  /// Sum of f(block, memory for it) over all blocks.
+  template <class F>
+  double sum_blocks(const F& f) const {
+    std::array<double, chunk_count> parts{};
+    for_chunks(crew, size(), [&](size_t chunk, size_t, size_t) {
+      for (size_t k = 0; k < blocks[chunk].size(); ++k)
+        parts[chunk] += f(blocks[chunk][k], block_scratch[chunk]);
+    });
+    double total = 0;
+    for (const double part : parts) total += part;
+    return total;
+  }
+  /// f(block, memory for it) for all blocks.
+  template <class F>
+  void each_block(const F& f) const {
+    sum_blocks([&](const FluidBlock& block, BlockScratch& scratch) {
+      f(block, scratch);
       return 0.0;
     });
   }
@@ -262,6 +297,8 @@ inline Vec3 difference(const Vec3& u, const FluidVector& sum) {
 Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin);
 /// Walls, shares, gradients and diagonals, from places and volumes.
 void find_surroundings(FluidState& s);
+/// Blocks of the pairs that find_surroundings found.
+Status make_blocks(FluidState& s);
 /// From these the corrections, and with them gradients and diagonals.
 void find_corrections(FluidState& s);
 /// Rates at which shares change by the velocities that are [1/s]: fluid behind a wall moves as the

@@ -13,6 +13,7 @@
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/sph/block_sums.hpp"
 #include "engine/dynamics/sph/fluid_state.hpp"
 
 #include <cmath>
@@ -24,7 +25,8 @@ namespace {
 /// find_corrections.
 enum class Sums : uint8_t { of_shares, corrected };
 
-/// Forces of pressures, and what bodies make of them.
+/// Forces of pressures, and what bodies make of them. While pressures are sought they are in single
+/// precision, by blocks; what acts in the end is in double, pair by pair equal and opposite.
 class PressureForces {
  public:
   PressureForces(FluidState& s, const std::vector<double>& pressure, Sums sums, bool bodies_yield)
@@ -36,12 +38,41 @@ class PressureForces {
     for (const FluidBody& b : s.body_defs) bodies_yield_ = bodies_yield_ || b.inverse_mass > 0;
   }
 
+  /// What find() and sum_openings() need.
+  void take_operands() {
+    FluidState& s = s_;
+    const double length = s.kernel.reach();
+    PressureOperands& to = s.pressure_operands;
+    for_chunks(s.crew, s.size(), [&](size_t chunk, size_t, size_t) {
+      for (size_t k = 0; k < s.blocks[chunk].size(); ++k) {
+        const FluidBlock block = s.blocks[chunk][k];
+        for (size_t p = block.first; p < block.first + block.ends.size(); ++p) {
+          const SingleVector at =
+              single((s.x(p) - block.centre) / length, double(s.first_block[chunk] + k));
+          to.flows[p].at = at;
+          const double volume = s.kernel.scale() * s.volume[p];
+          const Vec3& g = corrected_ ? s.corrected_gradient[p] : s.gradient[p];
+          to.gradients[p] = single(length / volume * g, volume / (length * s.density[p]));
+          if (!corrected_) continue;
+          to.matrices[p].at = at;
+          for (int k = 0; k < 3; ++k)
+            to.matrices[p].correction[k] = single(s.correction[p].col(k), 0);
+        }
+      }
+    });
+    operands_ = {length,          s.block_centres.data(), corrected_ ? to.matrices.data() : nullptr,
+                 to.flows.data(), to.weights.data(),      to.gradients.data()};
+  }
+
   void find() {
     FluidState& s = s_;
-    if (corrected_)
-      find_corrected();
-    else
-      find_plain();
+    const double scale = s.kernel.scale();
+    s.each([&](size_t p) {
+      s.pressure_operands.weights[p] = float(scale * s.volume[p] * pressure_[p]);
+    });
+    s.each_block([&](const FluidBlock& block, BlockScratch& scratch) {
+      press_block(operands_, block, scratch);
+    });
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies();
     for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s.response(b, forces[b]);
@@ -49,22 +80,29 @@ class PressureForces {
   /// Sum of f(p, rate of change of the particle's rate by them [1/s2]) over all particles.
   template <class F>
   double sum_openings(const F& f) const {
-    const FluidState& s = s_;
-    if (corrected_)
-      return s.sum_with_pairs(
-          FluidFactor::slope, s.other_wide_terms, nullptr, [&](size_t p, const FluidTriple& sum) {
-            return f(p, opened(s, p, s.acceleration[p], sum) + opened_by_walls(p));
-          });
-    return s.sum_with_pairs(
-        FluidFactor::slope, s.other_terms, nullptr, [&](size_t p, const FluidVector& sum) {
-          const double rate =
-              s.acceleration[p].dot(s.gradient[p]) + opened(s, p, sum) + opened_by_bodies(p);
-          return f(p, rate);
-        });
+    const double per_unit = 1 / operands_.length_unit;
+    return s_.sum_blocks([&](const FluidBlock& block, BlockScratch& scratch) {
+      std::array<float, tolerances::block_particles> rates;
+      open_block(operands_, block, rates.data(), scratch);
+      double sum = 0;
+      for (size_t k = 0; k < block.ends.size(); ++k) {
+        const size_t p = block.first + k;
+        sum += f(p, per_unit * double(rates[k]) + opened_by_bodies(p));
+      }
+      return sum;
+    });
   }
   double diagonal(size_t p) const { return corrected_ ? s_.corrected_diagonal[p] : s_.diagonal[p]; }
+  /// Accelerations of the fluid, in double.
+  void find_exactly() {
+    if (corrected_)
+      find_corrected();
+    else
+      find_plain();
+  }
   /// They have acted for the sub-step.
   void act() {
+    find_exactly();
     s_.report.pressure_work += s_.accelerate();
     std::vector<Wrench> forces = on_bodies();
     for (Wrench& w : forces) w.impulse *= s_.h, w.angular_impulse *= s_.h;
@@ -72,14 +110,15 @@ class PressureForces {
   }
 
  private:
+  static SingleVector single(const Vec3& v, double w) {
+    return {float(v[0]), float(v[1]), float(v[2]), float(w)};
+  }
   void find_plain() {
     FluidState& s = s_;
     s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure_[p])); });
     s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
       const Vec3 force = pressure_[p] * s.gradient[p] + pressed(s, p, sum);
-      const Vec3 a = -(1 / s.density[p]) * force;
-      s.acceleration.set(p, a);
-      s.other_terms.put(p, opening(s, p, a));
+      s.acceleration.set(p, -(1 / s.density[p]) * force);
     });
   }
   void find_corrected() {
@@ -88,9 +127,7 @@ class PressureForces {
     s.each_with_pairs(
         FluidFactor::slope, s.wide_terms, nullptr, [&](size_t p, const FluidTriple& sum) {
           const Vec3 force = pressure_[p] * s.corrected_gradient[p] + pressed(s, p, sum);
-          const Vec3 a = -(1 / s.density[p]) * force;
-          s.acceleration.set(p, a);
-          s.other_wide_terms.put(p, opening_corrected(s, p, a));
+          s.acceleration.set(p, -(1 / s.density[p]) * force);
         });
   }
   const Vec3& gradient(const WallTouch& t) const { return corrected_ ? t.corrected : t.gradient; }
@@ -99,11 +136,6 @@ class PressureForces {
     if (bodies_yield_)
       for (const WallTouch& t : s_.touches_of(p))
         rate -= s_.response_at(responses_, t.body, s_.x(p)).dot(gradient(t));
-    return rate;
-  }
-  double opened_by_walls(size_t p) const {
-    double rate = opened_by_bodies(p);
-    for (const WallTouch& t : s_.touches_of(p)) rate += s_.acceleration[p].dot(gradient(t));
     return rate;
   }
   std::vector<Wrench> on_bodies() const {
@@ -119,6 +151,7 @@ class PressureForces {
   const std::vector<double>& pressure_;
   bool corrected_, bodies_yield_ = false;
   std::vector<Wrench> responses_;  ///< what bodies make of the forces
+  BlockOperands operands_;
 };
 
 /// Finds pressures such that no share is too large by more than the error in the mean, which is
@@ -145,6 +178,7 @@ class PressureSolve {
         last_(pressure.begin(), pressure.begin() + ptrdiff_t(s.size())) {}
 
   int run() {
+    forces_.take_operands();
     double momentum = 1;
     for (int iterations = 0;; ++iterations) {
       forces_.find();
@@ -259,6 +293,7 @@ void shift_particles(FluidState& s) {
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)
           .run();
+  forces.find_exactly();
   const double longest = s.common.cfl * s.spacing / s.h;
   s.each([&](size_t p) {
     const Vec3 shift = s.h * s.acceleration[p];
@@ -276,7 +311,6 @@ void press_by_state(FluidState& s, double sound_speed) {
     s.pressure[p] = std::max(0.0, stiffness * (power - 1));
   });
   PressureForces forces(s, s.pressure, Sums::of_shares, true);
-  forces.find();
   s.report.density_error =
       s.sum([&](size_t p) { return std::max(0.0, s.share[p] - 1); }) / double(s.size());
   forces.act();
