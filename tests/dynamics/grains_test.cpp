@@ -337,3 +337,21 @@ TEST_CASE("what grains cannot be is refused with its cure") {
   def.collide = false;
   CHECK(!validate(def).ok());
 }
+
+TEST_CASE("grains with the same centre part until they touch, and keep their centre of mass") {
+  for (const int count : {2, 3}) {
+    Sandbox box;
+    box.gravity.setZero();
+    for (int k = 0; k < count; ++k) box.add({0.3, 0.2, 0.1}, Vec3::Zero(), 0.01, 0.01 * (k + 1));
+    box.run(0.5);
+    Vec3 middle = Vec3::Zero();
+    double mass = 0;
+    for (size_t i = 0; i < size_t(count); ++i) {
+      middle += box.grains().mass[i] * box.grains().x[i];
+      mass += box.grains().mass[i];
+      for (size_t j = 0; j < i; ++j)
+        CHECK((box.grains().x[i] - box.grains().x[j]).norm() > 0.99 * 0.02);
+    }
+    CHECK((middle / mass - Vec3(0.3, 0.2, 0.1)).norm() < 1e-6 * 0.02);
+  }
+}

@@ -219,16 +219,21 @@ void PartOverlappingPairs(const GrainPairView& in, GrainRange range) {
       const GrainF reach = a.radius + b.radius - slop;
       const GrainV way = b.x - a.x;
       const GrainF d2 = dot(way, way);
-      const auto deep = hn::And(hn::Lt(d2, reach * reach), hn::Gt(d2, every_grain(0)));
+      const auto used = hn::FirstN(GrainD(), c.lanes - lane);
+      const auto deep = hn::And(hn::Lt(d2, reach * reach), used);
       if (hn::AllFalse(GrainD(), deep)) continue;
       const GrainF mass_a = inverse_masses(in.movers, c.a.data() + lane);
       const GrainF mass_b = inverse_masses(in.movers, c.b.data() + lane);
-      const GrainF d = hn::Sqrt(hn::IfThenElse(deep, d2, every_grain(1)));
+      // Grains in the same place are moved apart along y.
+      const auto apart = hn::Gt(d2, every_grain(0));
+      const GrainF d = hn::Sqrt(hn::IfThenElse(apart, d2, every_grain(1)));
+      const GrainF depth = reach - hn::IfThenElseZero(apart, d);
       const GrainF part =
           hn::IfThenElseZero(deep, every_grain(tolerances::grain_push_out) *
-                                       inverse_or_zero(mass_a + mass_b) * (reach - d) / d);
-      a.x = a.x - (part * mass_a) * way;
-      b.x = b.x + (part * mass_b) * way;
+                                       inverse_or_zero(mass_a + mass_b) * depth / d);
+      const GrainV along = {way.x, hn::IfThenElse(apart, way.y, every_grain(1)), way.z};
+      a.x = a.x - (part * mass_a) * along;
+      b.x = b.x + (part * mass_b) * along;
       a.write(uint32_t(c.writes_a) >> lane);
       b.write(uint32_t(c.writes_b) >> lane);
     }

@@ -14,7 +14,8 @@ constexpr std::string_view wrap_section = "wrapped mesh";
 /// The numbers of a report, in the order of the file.
 template <class Report>
 auto numbers_of(Report& r) {
-  return std::array{&r.gap, &r.offset, &r.cell, &r.added, &r.missing, &r.buried, &r.nearest, &r.bound};
+  return std::array{&r.gap,     &r.offset, &r.cell,    &r.added,
+                    &r.missing, &r.buried, &r.nearest, &r.bound};
 }
 
 Bytes bytes_of_wrap(const WrappedMesh& wrap) {
