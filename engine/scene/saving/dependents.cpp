@@ -2,6 +2,7 @@
 
 #include "engine/math/expression.hpp"
 #include "engine/scene/repetition.hpp"
+#include "engine/scene/saving/naming_keys.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -11,28 +12,19 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace tumble {
 namespace {
 
 using Path = JsonTextEdit::Path;
 
-/// Keys whose text, or texts in an array, are names of a list.
-struct NamingKey {
-  std::string_view key, list;
-};
-constexpr NamingKey naming_keys[] = {{"body", "bodies"},       {"a", "bodies"},
-                                     {"b", "bodies"},          {"bodies", "bodies"},
-                                     {"carrier", "bodies"},    {"follow", "bodies"},
-                                     {"joint", "joints"},      {"particles", "particles"},
-                                     {"between", "particles"}, {"emitter", "emitters"},
-                                     {"camera", "cameras"}};
-/// Keys whose value, a text or an array of texts, are expressions over quantities:
-/// "bodies.ball.position.y > 1".
+/// Keys whose text, or texts, are expressions over quantities: "bodies.ball.position.y > 1".
 constexpr std::string_view expression_keys[] = {"holds", "assertions", "plot", "quantity"};
 /// Keys that can be removed from their object together with their value.
 constexpr std::string_view loose_keys[] = {"follow",   "couple", "camera", "plot",
-                                           "question", "pins",   "events", "rope"};
+                                           "question", "pins",   "events", "rope",
+                                           "material", "like",   "drawn"};
 
 template <class Keys>
 bool among(const Keys& keys, std::string_view key) {
@@ -115,7 +107,11 @@ class Search {
     return false;
   }
   bool names(const std::string& text, std::string_view key, const Path& path) const {
-    if (path[0].key == "bodies" || path[0].key == "materials") return false;
+    // Bodies, of which there may be many, name surfaces and meshes only.
+    const bool made_of = gone_.list == "materials" || gone_.list == "meshes";
+    if (!made_of && (path[0].key == "bodies" || path[0].key == "materials")) return false;
+    // A bare name in the place of a material stands for {"like": name}.
+    if (path[0].key == "materials" && path.size() == 2) key = "like";
     if (among(expression_keys, key)) return gone_.in_expression(text);
     if (path.size() < 2) return false;
     // For sensors, joints and forces; the names that a robot uses are in other places.
@@ -232,7 +228,53 @@ std::string with_name(std::string text, const std::string& before, const std::st
   return text;
 }
 
-/// Renames in an expression over quantities, or in a name with the index of a copy.
+/// The expression with `to` in the place of the parameter `name`, which stands alone: no quantity
+/// ("bodies.name.mass"), no function, no part of a longer name.
+std::string with_parameter_name(std::string text, const std::string& name, const std::string& to) {
+  for (size_t at = 0; (at = text.find(name, at)) != std::string::npos;) {
+    const size_t end = at + name.size();
+    const bool begins = at == 0 || !(is_letter(text[at - 1]) || text[at - 1] == '.');
+    const bool ends =
+        end == text.size() || !(is_letter(text[end]) || text[end] == '(' || text[end] == '.');
+    if (begins && ends) text.replace(at, name.size(), to);
+    at += begins && ends ? to.size() : name.size();
+  }
+  return text;
+}
+
+/// Parameters are named in values ("$gap", "= 2 * gap"), in what a scene asserts, and in what a
+/// lesson chooses ("parameters.gap=3").
+std::string with_parameter_renamed(std::string_view key, const std::string& text,
+                                   const std::string& name, const std::string& to) {
+  if (key == "choose") return with_name(text, "parameters.", name, to);
+  const bool expression =
+      among(expression_keys, key) || text.starts_with('$') || text.starts_with('=');
+  return expression ? with_parameter_name(text, name, to) : text;
+}
+
+void rename_parameter(JsonTextEdit& text, const JsonNode& node, std::string_view key,
+                      const Path& path, const std::string& name, const std::string& to) {
+  if (node.is(JsonNode::Kind::string)) {
+    const std::string now = with_parameter_renamed(key, node.string, name, to);
+    if (now != node.string) text.set(path, nlohmann::json(now).dump());
+    return;
+  }
+  for (size_t i = 0; i < node.items.size(); ++i) {
+    const bool object = node.is(JsonNode::Kind::object);
+    rename_parameter(text, node.items[i], object ? std::string_view(node.keys[i]) : key,
+                     object ? path / node.keys[i] : at_index(path, i), name, to);
+  }
+}
+
+/// What a robot is made of keeps the names that others know it by.
+void keep_prefix(JsonTextEdit& text, const Path& robot) {
+  const auto said = text.value(robot);
+  if (!said || text.value(robot / "prefix")) return;
+  if (!said->starts_with('{')) text.set(robot, fmt::format("{{ \"file\": {} }}", *said));
+  text.set(robot / "prefix", fmt::format("\"{}_\"", robot.back().key));
+}
+
+/// An expression over quantities, or a name with the number of a copy behind it.
 std::string renamed_text(const Gone& gone, std::string_view key, const std::string& text,
                          const std::string& to) {
   if (!among(expression_keys, key)) return to + text.substr(gone.name.size());
@@ -261,8 +303,10 @@ Result<std::string> renamed(const std::string& scene, const std::string& list,
   if (!tree) return refused("the file is no scene");
   const Gone gone{list, name};
   Search(gone).all_in(*tree, [&](const Path& path, std::string_view key, const std::string& said) {
-    text.set(path, "\"" + renamed_text(gone, key, said, to) + "\"");
+    text.set(path, nlohmann::json(renamed_text(gone, key, said, to)).dump());
   });
+  if (list == "parameters") rename_parameter(text, *tree, "", {}, name, to);
+  if (list == "robots") keep_prefix(text, Path{} / list / name);
   text.rename(Path{} / list / name, to);
   return text.text();
 }
@@ -271,7 +315,7 @@ std::string TakenAlong::words() const {
   constexpr std::pair<std::string_view, std::string_view> kinds[] = {
       {"joints", "joint"},     {"forces", "force"}, {"particles", "particle system"},
       {"emitters", "emitter"}, {"sinks", "sink"},   {"sensors", "sensor"},
-      {"cameras", "camera"},   {"bodies", "body"}};
+      {"cameras", "camera"},   {"bodies", "body"},  {"materials", "material"}};
   std::string kind = list;
   for (const auto& [of_list, one] : kinds)
     if (of_list == list) kind = one;

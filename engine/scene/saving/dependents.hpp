@@ -27,9 +27,9 @@ struct TakenAlong {
 std::vector<TakenAlong> drop_dependents(JsonTextEdit& text, std::string_view list,
                                         const std::string& name);
 
-/// The text of a scene in which a thing of a list is renamed to `to`, together with all references,
-/// including copies and expressions. Error: it is not in the file, or `to` is used already or not a
-/// valid name.
+/// The text of a scene in which a thing of a list is called `to`, wherever it is named: copies and
+/// expressions included. What a robot is made of keeps its names. Error: it is not in the file, or
+/// `to` is taken or no name.
 Result<std::string> renamed(const std::string& scene, const std::string& list,
                             const std::string& name, const std::string& to);
 
