@@ -43,6 +43,7 @@ struct WorldComparison {
   std::vector<WorldDifference> differences;  ///< in what A and B differ now
   bool from_start = false;                   ///< B has other numbers: both began at the start
   bool opening = false;                      ///< B is being made
+  double behind = 0;  ///< how far B is from A's moment while it catches up [s]
   bool alone = false;                        ///< it is not made of the same bodies as A:
                                              ///< what is done to A is not done to it
   std::vector<double> times;                 ///< of the latest moments that both have [s]

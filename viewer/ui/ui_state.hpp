@@ -15,6 +15,7 @@
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/comparison.hpp"
 #include "viewer/ui/contact_view.hpp"
+#include "viewer/ui/description_view.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/lesson_view.hpp"
 #include "viewer/ui/measures.hpp"
@@ -145,7 +146,8 @@ struct UiModel {
   std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
   bool reading_mesh = false;                           ///< that of the palette
-  std::string palette_fault;             ///< why the palette's mesh cannot be placed; "": it can
+  std::string palette_fault;  ///< why the palette's mesh cannot be placed; "": it can
+  const DescriptionView* description = nullptr;  ///< null: there is no file to be described
   const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
   std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
@@ -284,6 +286,8 @@ struct RemovePart {
   std::string name;
   PartDescription part;
 };
+/// Throws away changes of the description that do not make a scene yet.
+struct LeaveDraft {};
 /// World B beside this one from now on, as it is chosen here; also where there is one already.
 struct Compare {
   WorldChoice choice;
@@ -302,14 +306,13 @@ struct AnswerLesson {
 };
 /// Opens the scene with the settings that the page of the lesson chooses.
 struct TakeLessonChoice {};
-using UiRequest =
-    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 CancelQuestion, SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter,
-                 SeekTick, WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
-                 DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
-                 BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
-                 EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
-                 RemoveReading, RemoveFlightKey, FollowFromKey, LeavePast>;
+using UiRequest = std::variant<
+    Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick, CancelQuestion,
+    SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick, WriteScene, Compare,
+    EndCompare, EditJoint, RemoveJoint, AnswerQuestion, DisplaceSelected, AddCurve, RemoveCurve,
+    WriteMeasures, TurnLessonPage, BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode,
+    MeasureMesh, EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
+    RemoveReading, RemoveFlightKey, FollowFromKey, LeavePast, EditDescription, LeaveDraft>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -340,9 +343,10 @@ enum class PanelId : uint8_t {
   lesson,
   parts,
   bookmarks,
-  ruler
+  ruler,
+  description
 };
-constexpr size_t panel_count = 20;
+constexpr size_t panel_count = 21;
 
 /// A part of the scene that is looked at: "emitters", "rain".
 struct ChosenPart {
@@ -388,6 +392,12 @@ struct RefusedValue {
   double until = 0;   ///< when it has been said for long enough, on the clock of Dear ImGui [s]
 };
 
+/// What is being typed, or pulled, into a field of the description; given when the field is left.
+struct TypedValue {
+  std::string field;  ///< the mark of its widget; "": none
+  std::string text;
+};
+
 /// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
@@ -399,6 +409,8 @@ struct UiState {
   bool building = false;                            ///< while they do
   bool choosing_mesh = false;                       ///< the files are for the palette
   ChosenPart part;                                  ///< whose values are shown
+  ScenePath described;                              ///< what of the scene is shown
+  TypedValue describing;                            ///< in one of its fields
   HandleSettings handles;                           ///< at the selected bodies
   ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
   PlotChoice plot;                                  ///< of the curves

@@ -5,6 +5,7 @@
 #include "engine/world/world_def.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,13 +25,17 @@ class SecondWorld {
   SecondWorld(WorldChoice choice, const World& made);
 
   // -- simulation thread --------------------------------------------------------------------------
+  static constexpr double no_limit = std::numeric_limits<double>::infinity();
   /// B becomes what A is now, with its own settings, or begins at its own first tick and catches
   /// up. A failure is shown, and stops B.
-  void begin(const World& a);
-  /// Carries out what was done to A since, but for settings, and steps B up to A's moment.
-  void follow(const World& a);
+  void begin(const World& a, double seconds = no_limit);
+  /// Carries out what was done to A since, but for settings, and steps B up to A's moment, or, by
+  /// one tick at least, for so long: then it is still behind.
+  void follow(const World& a, double seconds = no_limit);
   /// A has gone back on its own course: B goes with it, or begins anew where it was not there yet.
-  void go_back(const World& a);
+  void go_back(const World& a, double seconds = no_limit);
+  /// B has not come to A's moment yet, and can.
+  bool behind(const World& a) const;
   void stop_with(const StopFlag* flag);
 
   // -- any thread ---------------------------------------------------------------------------------
@@ -46,6 +51,7 @@ class SecondWorld {
     bool alone = false;  ///< it has other bodies: what is done to A is not done to it
     Divergence now, worst;
     std::string fault;  ///< why B stopped; empty: it did not
+    double behind = 0;  ///< how far it is from A's moment while it catches up [s]
   };
   Shown shown() const;
   const WorldChoice& choice() const { return choice_; }
@@ -67,6 +73,7 @@ class SecondWorld {
   const StopFlag* stop_ = nullptr;
   uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both at the beginning
   size_t commands_ = 0;                 ///< of A's log that were carried out
+  bool failed_ = false;                 ///< nothing more comes of it until it begins anew
 
   mutable std::mutex mutex_;
   Shown shown_;

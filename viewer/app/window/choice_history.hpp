@@ -31,6 +31,9 @@ class ChoiceHistory {
   void gone(Step step);
   /// Somebody did something else: what was taken back is not to be done again.
   void forget_taken_back() { undone_.clear(); }
+  /// The scene was saved to `scene`, whose file was `text` before: what meant the file as it was
+  /// means that text from now on.
+  void saved(const std::string& scene, const std::string& text);
   /// Another scene is shown, or this one has another text.
   void forget() { *this = ChoiceHistory{}; }
   /// Nothing can be taken back.

@@ -42,6 +42,7 @@ struct OpenedScene {
   SceneFile file;                          ///< for saving
   SceneWish wish;                          ///< that it was opened by
   std::vector<SceneParameter> parameters;  ///< numbers that it declares
+  uint64_t world_hash = 0;                 ///< of all in the file that acts on bodies; 0: not known
   ViewPoint view;                          ///< where a person looks at it first
   std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
   std::optional<MicroscopeSetup> microscope;
