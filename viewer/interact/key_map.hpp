@@ -75,6 +75,7 @@ enum class Action : uint8_t {
   toggle_assertions,
   toggle_lesson,
   toggle_parts,
+  toggle_description,
   lesson_next,
   lesson_back,
   larger,

@@ -43,23 +43,22 @@ struct ContactDifference {
 /// panels.
 struct WorldComparison {
   WorldChoice choice;                        ///< of B
-  std::vector<WorldDifference> differences;  ///< present differences in settings
-  bool from_start = false;    ///< B has other numbers, so both began at the start of the scene
-  bool opening = false;       ///< B is being made
-  bool alone = false;         ///< B has other bodies than A:
-                              ///< commands to A are not applied to it
-  std::vector<double> times;  ///< the latest times that both worlds have reached [s]
-  /// Greatest distance at these times, over bodies and particles [m].
-  std::vector<float> distances;
-  double distance = 0, angle = 0;  ///< greatest at present [m], [rad]
-  double worst = 0;                ///< greatest since the beginning [m]
-  std::string what;  ///< the body or particle with the greatest present distance; "": none
-  std::optional<uint64_t> first_tick;  ///< first tick of A at which they differ; none: they do not
+  std::vector<WorldDifference> differences;  ///< in what A and B differ now
+  bool from_start = false;                   ///< B has other numbers: both began at the start
+  bool opening = false;                      ///< B is being made
+  double behind = 0;                   ///< how far B is from A's moment while it catches up [s]
+  bool alone = false;                  ///< it is not made of the same bodies as A:
+                                       ///< what is done to A is not done to it
+  std::vector<double> times;           ///< of the latest moments that both have [s]
+  std::vector<float> distances;        ///< greatest, then, of bodies and particles [m]
+  double distance = 0, angle = 0;      ///< now [m], [rad]
+  double worst = 0;                    ///< greatest so far [m]
+  std::string what;                    ///< where it is greatest now; "": nowhere
+  std::optional<uint64_t> first_tick;  ///< of A, from which on they differ; none: they do not
   std::string first_what;              ///< what differed first
-  BodyId first_body;                   ///< null if it is not a body, or no longer exists
-  /// First contact that differs; none: all are the same.
-  std::optional<ContactDifference> first_contact;
-  std::string fault;  ///< why B has stopped; "": it runs
+  BodyId first_body;                   ///< null when that is no body, or gone
+  std::optional<ContactDifference> first_contact;  ///< that differed; none: all are the same
+  std::string fault;                               ///< why B has stopped; "": it has not
 };
 
 }  // namespace tumble

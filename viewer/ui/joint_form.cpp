@@ -251,6 +251,15 @@ void draw_joint(PanelContext& context, const SelectedJoint& joint, const JointFr
   value_row("torque", quantity_text(now.mean_torque.norm(), "N m"));
   if (ImGui::Button("Remove joint")) context.ask(RemoveJoint{joint.id});
   context.host.mark(fmt::format("joint.{}.remove", index));
+  ImGui::SameLine();
+  if (ImGui::Button("All values ...")) {
+    context.state.described =
+        ScenePath{} / "joints" / joint.def.name.substr(0, joint.def.name.find('['));
+    context.state.shows(PanelId::description) = true;
+  }
+  context.host.mark(fmt::format("joint.{}.describe", index));
+  tooltip_with_key(context, "every value of the file, and its name",
+                   shortcut_of(Action::toggle_description));
 }
 
 }  // namespace

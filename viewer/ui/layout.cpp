@@ -17,7 +17,7 @@ float wish(const PanelEntry& panel, const UiState& state) {
   return measured > 0 ? measured : panel.usual_height;
 }
 
-struct Member {
+struct Docked {
   const PanelEntry* panel;
   float wish;
   uint32_t raised;
@@ -30,33 +30,31 @@ struct Member {
   }
 };
 
-float least_of(const std::vector<Member>& column) {
+float least_of(const std::vector<Docked>& column) {
   float sum = -gap;
-  for (const Member& m : column) sum += m.least() + gap;
+  for (const Docked& m : column) sum += m.least() + gap;
   return sum;
 }
 
-/// Folds panels, then leaves them out, until the rest fits; the most recently raised one stays
-/// open.
-void make_fit(std::vector<Member>& column, float height) {
-  std::vector<Member*> oldest_first;
-  for (Member& m : column) oldest_first.push_back(&m);
+/// Folds, and then leaves out, until the rest fits; what was raised last stays open.
+void make_fit(std::vector<Docked>& column, float height) {
+  std::vector<Docked*> oldest_first;
+  for (Docked& m : column) oldest_first.push_back(&m);
   std::stable_sort(oldest_first.begin(), oldest_first.end(),
-                   [](const Member* a, const Member* b) { return a->raised < b->raised; });
+                   [](const Docked* a, const Docked* b) { return a->raised < b->raised; });
   if (!oldest_first.empty()) oldest_first.pop_back();
-  for (const Member::Form form : {Member::Form::folded, Member::Form::out})
-    for (Member* m : oldest_first) {
+  for (const Docked::Form form : {Docked::Form::folded, Docked::Form::out})
+    for (Docked* m : oldest_first) {
       if (least_of(column) <= height) return;
       m->form = form;
     }
 }
 
-/// Shares the height when a lesson comes first: it gets all it needs, as long as the others keep
-/// their least height; the rest is shared among them.
-std::vector<float> share_with_first(const std::vector<Member>& column,
+/// A lesson is read in one piece where the others keep enough to be used; the rest is shared.
+std::vector<float> share_with_first(const std::vector<Docked>& column,
                                     const std::vector<float>& wishes, float available) {
   const bool taught = !column.empty() && column.front().panel->id == PanelId::lesson &&
-                      column.front().form == Member::Form::open;
+                      column.front().form == Docked::Form::open;
   if (!taught) return share_height(wishes, available);
   constexpr float least_beside = 2 * least_open;  // for each other panel that needs as much
   float kept = 0;
@@ -67,37 +65,37 @@ std::vector<float> share_with_first(const std::vector<Member>& column,
   return out;
 }
 
-void place_column(UiLayout& out, std::vector<Member>& column, const UiRect& r) {
+void place_column(UiLayout& out, std::vector<Docked>& column, const UiRect& r) {
   make_fit(column, r.height);
   std::vector<float> wishes;
-  for (const Member& m : column)
-    if (m.form == Member::Form::open) wishes.push_back(m.wish);
+  for (const Docked& m : column)
+    if (m.form == Docked::Form::open) wishes.push_back(m.wish);
   const float others = least_of(column) - [&] {
     float sum = 0;
-    for (const Member& m : column)
-      if (m.form == Member::Form::open) sum += m.least();
+    for (const Docked& m : column)
+      if (m.form == Docked::Form::open) sum += m.least();
     return sum;
   }();
   const std::vector<float> heights = share_with_first(column, wishes, r.height - others);
   auto height = heights.begin();
   float y = r.y;
-  for (const Member& m : column) {
-    if (m.form == Member::Form::out) continue;
-    const bool folded = m.form == Member::Form::folded;
+  for (const Docked& m : column) {
+    if (m.form == Docked::Form::out) continue;
+    const bool folded = m.form == Docked::Form::folded;
     const float h = folded ? folded_height : *height++;
     out.panels.push_back({m.panel, {r.x, y, r.width, h}, folded});
     y += h + gap;
   }
 }
 
-std::vector<Member> shown_at(Dock dock, const UiState& state) {
-  std::vector<Member> out;
+std::vector<Docked> shown_at(Dock dock, const UiState& state) {
+  std::vector<Docked> out;
   for (const PanelEntry& panel : all_panels())
     if (panel.dock == dock && state.shows(panel.id))
       out.push_back({&panel, wish(panel, state), state.raised[size_t(panel.id)]});
   // A lesson comes first, with its plots below it.
   std::ranges::stable_partition(out,
-                                [](const Member& m) { return m.panel->id == PanelId::lesson; });
+                                [](const Docked& m) { return m.panel->id == PanelId::lesson; });
   return out;
 }
 
@@ -138,7 +136,7 @@ UiLayout layout_ui(double width_d, double height_d, const UiState& state) {
   UiLayout out;
   out.top_bar = {0, 0, width, bar_height};
   const float y = bar_height + margin, space = std::max(height - y - margin, least_height);
-  std::vector<Member> left = shown_at(Dock::left, state), right = shown_at(Dock::right, state);
+  std::vector<Docked> left = shown_at(Dock::left, state), right = shown_at(Dock::right, state);
   if (!has_two_columns(width_d)) {
     right.insert(right.begin(), left.begin(), left.end());
     left.clear();

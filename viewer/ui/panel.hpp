@@ -46,6 +46,7 @@ void draw_bookmarks_panel(PanelContext&);
 void draw_build_panel(PanelContext&);
 void draw_compare_panel(PanelContext&);
 void draw_contact_panel(PanelContext&);
+void draw_description_panel(PanelContext&);
 void draw_drawing_panel(PanelContext&);
 void draw_energy_panel(PanelContext&);
 void draw_events_panel(PanelContext&);

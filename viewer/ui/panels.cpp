@@ -39,6 +39,8 @@ constexpr PanelEntry entries[] = {
     {PanelId::bookmarks, "bookmarks", "Time", Dock::left, Action::toggle_bookmarks, 330,
      draw_bookmarks_panel},
     {PanelId::ruler, "ruler", "Ruler", Dock::left, Action::toggle_ruler, 160, draw_ruler_panel},
+    {PanelId::description, "description", "Scene", Dock::right, Action::toggle_description, 420,
+     draw_description_panel},
 };
 static_assert(std::size(entries) == panel_count);
 

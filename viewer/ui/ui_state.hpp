@@ -15,6 +15,7 @@
 #include "viewer/ui/build_choice.hpp"
 #include "viewer/ui/comparison.hpp"
 #include "viewer/ui/contact_view.hpp"
+#include "viewer/ui/description_view.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/lesson_view.hpp"
 #include "viewer/ui/measures.hpp"
@@ -146,10 +147,11 @@ struct UiModel {
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
   std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest comparison; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
-  bool reading_mesh = false;                           ///< the mesh of the palette is being read
-  std::string palette_fault;             ///< why the palette's mesh cannot be placed; "": it can
-  const ContactView* contact = nullptr;  ///< null: no contact is inspected, or nothing is known yet
-  std::optional<UiRect> selection_box;   ///< box being dragged around bodies [UI units]
+  bool reading_mesh = false;                           ///< that of the palette
+  std::string palette_fault;  ///< why the palette's mesh cannot be placed; "": it can
+  const DescriptionView* description = nullptr;  ///< null: there is no file to be described
+  const ContactView* contact = nullptr;  ///< null: none is looked at, or nothing is known yet
+  std::optional<UiRect> selection_box;   ///< being drawn by the pointer [UI units]
   bool has_snapshot = false;
   const Question* question = nullptr;  ///< modal question; null: none
   const SavePreview* save = nullptr;   ///< null: not known yet
@@ -286,7 +288,9 @@ struct RemovePart {
   std::string name;
   PartDescription part;
 };
-/// Starts a comparison with a world B made by these choices, or restarts it.
+/// Throws away changes of the description that do not make a scene yet.
+struct LeaveDraft {};
+/// World B beside this one from now on, as it is chosen here; also where there is one already.
 struct Compare {
   WorldChoice choice;
 };
@@ -304,14 +308,13 @@ struct AnswerLesson {
 };
 /// Opens the scene with the settings of the lesson's page.
 struct TakeLessonChoice {};
-using UiRequest =
-    std::variant<Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick,
-                 CancelQuestion, SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter,
-                 SeekTick, WriteScene, Compare, EndCompare, EditJoint, RemoveJoint, AnswerQuestion,
-                 DisplaceSelected, AddCurve, RemoveCurve, WriteMeasures, TurnLessonPage,
-                 BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode, MeasureMesh,
-                 EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
-                 RemoveReading, RemoveFlightKey, FollowFromKey, LeavePast>;
+using UiRequest = std::variant<
+    Action, OpenScene, ChangeSettings, ChangeThreads, ChangeSpeed, CancelTick, CancelQuestion,
+    SelectBody, SelectContact, FocusBody, EditBody, ChangeParameter, SeekTick, WriteScene, Compare,
+    EndCompare, EditJoint, RemoveJoint, AnswerQuestion, DisplaceSelected, AddCurve, RemoveCurve,
+    WriteMeasures, TurnLessonPage, BrowseFolder, AnswerLesson, TakeLessonChoice, ChangeMeshMode,
+    MeasureMesh, EditPart, RemovePart, AddNamedCurve, WritePlot, EditMarks, GoToMoment,
+    RemoveReading, RemoveFlightKey, FollowFromKey, LeavePast, EditDescription, LeaveDraft>;
 
 enum class ToastKind : uint8_t { info, warning, error };
 struct Toast {
@@ -342,9 +345,10 @@ enum class PanelId : uint8_t {
   lesson,
   parts,
   bookmarks,
-  ruler
+  ruler,
+  description
 };
-constexpr size_t panel_count = 20;
+constexpr size_t panel_count = 21;
 
 /// The part of the scene selected in the panel of parts: "emitters", "rain".
 struct ChosenPart {
@@ -390,28 +394,35 @@ struct RefusedValue {
   double until = 0;   ///< when the reason stops being shown, on Dear ImGui's clock [s]
 };
 
-/// State of the panels that persists between pictures.
+/// What is being typed, or pulled, into a field of the description; given when the field is left.
+struct TypedValue {
+  std::string field;  ///< the mark of its widget; "": none
+  std::string text;
+};
+
+/// What belongs to the panels themselves and outlives a picture.
 struct UiState {
   bool visible[panel_count] = {};
   bool hidden = false;  ///< all panels are hidden (Tab)
   Overlays overlays;
   MicroscopeChoice microscope;
-  EventFilter event_filter;                    ///< for the list, marks and jumps
-  BuildChoice build;                           ///< what clicks create,
-  bool building = false;                       ///< if this is set
-  bool choosing_mesh = false;                  ///< the file browser chooses a mesh for the palette
-  ChosenPart part;                             ///< the part whose values are shown
-  HandleSettings handles;                      ///< handles at the selected bodies
-  ComparedAs compared_as = ComparedAs::ghost;  ///< how world B is shown
-  PlotChoice plot;                             ///< layout of the plotted curves
-  bool ruling = false;                         ///< clicks place points of a ruler,
-  bool ruling_angle = false;                   ///< or of a protractor
-  std::optional<uint64_t> span_began;          ///< one end of the span being dragged
-  RefusedValue refused;                        ///< the last one
-  TypedDisplacement typed;                     ///< typed instead of a drag
-  uint64_t scrubbed_to = 0;                    ///< the tick last requested by the time line
-  /// Values of the scene's numbers while their sliders are dragged.
-  std::map<std::string, double> pulled_parameters;
+  EventFilter event_filter;                         ///< of the list, and of marks and jumps
+  BuildChoice build;                                ///< what clicks build,
+  bool building = false;                            ///< while they do
+  bool choosing_mesh = false;                       ///< the files are for the palette
+  ChosenPart part;                                  ///< whose values are shown
+  ScenePath described;                              ///< what of the scene is shown
+  TypedValue describing;                            ///< in one of its fields
+  HandleSettings handles;                           ///< at the selected bodies
+  ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
+  PlotChoice plot;                                  ///< of the curves
+  bool ruling = false;                              ///< clicks are points of a ruler,
+  bool ruling_angle = false;                        ///< or of a protractor
+  std::optional<uint64_t> span_began;               ///< while a span of time is being drawn
+  RefusedValue refused;                             ///< the last one
+  TypedDisplacement typed;                          ///< in place of a drag
+  uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
+  std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
   PictureQuality quality = PictureQuality::automatic;
   Theme theme = Theme::dark;
   double zoom = 1;  ///< of panels and text, times the monitor's scale

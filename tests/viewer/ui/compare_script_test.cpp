@@ -245,6 +245,38 @@ TEST_CASE("a world of half the tick is compared at the moments that both have") 
   CHECK(second.shown().samples.size() == 11);
 }
 
+TEST_CASE("a second world far behind catches up in slices, and comes to the same bits") {
+  TestWorld a;
+  BodyDef box = TestWorld::box_def({0, 2, 0});
+  box.name = "box";
+  const BodyId id = a.add(box);
+  REQUIRE(a->apply_commands().ok());
+  const auto start = World::create({});
+  REQUIRE(start.ok());
+  REQUIRE((*start)->load(a->save()).ok());
+  for (int i = 0; i < 40; ++i) {
+    if (i == 20) CHECK(a->apply_impulse(id, Vec3(500, 200, 0), Vec3(0, 2, 0.2)).ok());
+    REQUIRE(a->step().ok());
+  }
+  // It begins at the first tick: each slice of no time at all is one tick of it.
+  SecondWorld second(choice_of(a->settings()), **start);
+  second.begin(*a.world, 0);
+  for (int ticks = 1; ticks < 40; ++ticks) {
+    CHECK(second.behind(*a.world));
+    CHECK(second.shown().to->tick == uint64_t(ticks));
+    CHECK(second.shown().behind == doctest::Approx((40 - ticks) * a->settings().tick.tick()));
+    second.follow(*a.world, 0);
+  }
+  CHECK_FALSE(second.behind(*a.world));
+  CHECK(second.shown().behind == 0);
+  CHECK(second.shown().now.same_bits);
+  // Going back to where it has been is none of that.
+  SecondWorld slow(choice_of(a->settings()), **start);
+  slow.begin(*a.world, 0);
+  slow.go_back(*a.world, 0);
+  CHECK(slow.shown().to->tick == 2);
+}
+
 TEST_CASE("the window compares, shows where worlds part, and goes there") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -4,6 +4,7 @@
 #include "engine/scene/reader.hpp"
 #include "engine/world/world.hpp"
 #include "tests/support/why_not.hpp"
+#include "tests/viewer/ui/laboratory.hpp"
 
 #include <doctest/doctest.h>
 
@@ -88,4 +89,32 @@ TEST_CASE("a part that loses a name is described anew, and can be changed afterw
   CHECK(saved->text.find("\"bodies\": [\"box\"]") != std::string::npos);
   CHECK(saved->text.find("\"ball\"") == std::string::npos);
   CHECK(saved->text.find("\"2\": { \"present\": false }") != std::string::npos);
+}
+
+TEST_CASE("whoever deletes the floor of a fluid is told that the scene does not open without it") {
+  test::Laboratory b;
+  REQUIRE(write_file(b.file, std::string_view(R"({
+  "tumble_scene": 1,
+  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" } },
+    "shelf": { "type": "static", "shape": { "type": "box", "size": [1, 0.1, 1] }, "position": [9, 5, 0] }
+  },
+  "particles": { "water": { "fluid": {}, "fill": { "type": "lattice", "region": "box",
+                            "centre": [0, 0.5, 0], "size": [0.4, 0.4, 0.4], "spacing": 0.1 } } }
+})"))
+              .ok());
+  b.rig.app->open(b.file);
+  b.play("key B\nwait 3");
+  const auto remove = [&](const char* name) {
+    b.rig.app->ask(SelectBody{b.world().find_body(name)});
+    b.play("wait 3\nkey Del\nwait 4");
+    REQUIRE(b.world().find_body(name).is_null());
+  };
+  remove("shelf");  // nothing needs it
+  CHECK_FALSE(says(b.rig, "does not open again"));
+  remove("ground");
+  CHECK(says(b.rig, "does not open again"));
+  CHECK(says(b.rig, "Ctrl+Z brings it back"));
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK_FALSE(b.world().find_body("ground").is_null());
 }

@@ -1,6 +1,7 @@
 #include "viewer/app/editing/mesh_palette.hpp"
 
 #include "engine/scene/mesh_import.hpp"
+#include "viewer/app/editing/mesh_cure.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -54,7 +55,7 @@ Result<std::shared_ptr<const PaletteMesh>> read_palette_mesh(const NewMesh& chos
   }
   out.mesh = std::make_shared<const TriangleMesh>(std::move(imported->mesh));
   auto parts = mesh_parts(out.mesh, {.mode = chosen.mode});
-  if (!parts) return parts.error();
+  if (!parts) return with_cure_in_window(parts.error());
   out.parts = *std::move(parts);
   if (stop_requested()) return stopped_error();
   return std::make_shared<const PaletteMesh>(std::move(out));

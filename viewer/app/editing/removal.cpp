@@ -73,6 +73,7 @@ void Removal::finish(World& world) const {
   std::vector<std::string> lines;
   for (const TakenAlong& one : taking_->along) lines.push_back(one.words());
   if (!lines.empty()) told_.tell(std::move(lines));
+  if (taking_->rest) told_.leave(taking_->rest->text());
 }
 
 }  // namespace tumble

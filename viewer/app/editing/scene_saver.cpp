@@ -85,12 +85,7 @@ void SceneSaver::take_edits(std::vector<SceneEdit> made) {
   // An unchanged scene is known to open from this place.
   const fs::path place = place_of(file_.path);
   if (text_ == file_.on_disk && folder_of(place) == folder_of(file_.read_from)) return;
-  trial_ = std::make_unique<Trial>();
-  trial_->outcome = std::async(beside_ ? std::launch::async : std::launch::deferred,
-                               [stop = &trial_->stop, text = text_, place] {
-                                 const Stoppable scope(stop);
-                                 return check_scene_text(text, place);
-                               });
+  trial_ = std::make_unique<OpeningTrial>(text_, place, beside_);
 }
 
 /// What may be unexpected about writing to a path; "": nothing.
@@ -123,10 +118,11 @@ fs::path SceneSaver::place_of(const fs::path& path) const {
 
 void SceneSaver::look_at_trial() {
   if (trial_) {
-    if (trial_->outcome.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return;
-    if (const Status opens = trial_->outcome.get(); !opens) {
-      tried_->fault = "It would not open again, as it is now:\n" + opens.error().text();
-      // Files that it refers to may be found from another folder.
+    const auto opens = trial_->take();
+    if (!opens) return;
+    if (!*opens) {
+      tried_->fault = "It would not open again, as it is now:\n" + opens->error().text();
+      // Files that it names may be found from another folder.
       tried_->only_there = file_.pack.empty() && names_files(text_);
     }
     trial_.reset();

@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/core/stop.hpp"
 #include "engine/scene/saving/scene_edits.hpp"
+#include "viewer/app/editing/opening_trial.hpp"
 #include "viewer/app/session/session.hpp"
 #include "viewer/ui/save_preview.hpp"
 
@@ -52,12 +52,6 @@ class SceneSaver {
   const SceneFile& file() const { return file_; }
 
  private:
-  /// Whether a text opens as a scene; cancelled by destruction.
-  struct Trial {
-    StopFlag stop;
-    std::future<Status> outcome;
-    ~Trial() { stop.request(); }
-  };
   void take_edits(std::vector<SceneEdit> edits);
   void look_at_trial();
   std::string warning_of(const std::filesystem::path& path) const;
@@ -70,9 +64,9 @@ class SceneSaver {
   std::vector<SceneEdit> edits_;   ///< all edits, as in the preview
   std::future<std::vector<SceneEdit>> collected_;
   std::optional<SavePreview> preview_;
-  std::string named_;                 ///< path that the preview warns about
-  std::optional<SavePreview> tried_;  ///< becomes the preview if the trial succeeds
-  std::unique_ptr<Trial> trial_;      ///< null: none is under way
+  std::string named_;                    ///< the file that the preview warns of
+  std::optional<SavePreview> tried_;     ///< what becomes the preview, if the trial goes well
+  std::unique_ptr<OpeningTrial> trial_;  ///< null: none is under way
   bool beside_ = true;
   std::string text_;  ///< text to be written
 };

@@ -32,11 +32,22 @@ class Refusal {
     return std::exchange(shared_->told, {});
   }
 
+  /// The scene's file as it would be without what was taken away.
+  void leave(std::string text) const {
+    std::lock_guard lock(shared_->mutex);
+    shared_->left = std::move(text);
+  }
+  std::optional<std::string> take_left() const {
+    std::lock_guard lock(shared_->mutex);
+    return std::exchange(shared_->left, {});
+  }
+
  private:
   struct Shared {
     std::mutex mutex;
     std::optional<Error> error;
     std::vector<std::string> told;
+    std::optional<std::string> left;
   };
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
 };

@@ -4,6 +4,7 @@
 #include "engine/world/world.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace tumble {
@@ -40,8 +41,9 @@ void SecondWorld::stop_with(const StopFlag* flag) {
   if (world_) world_->stop_with(flag);
 }
 
-void SecondWorld::begin(const World& a) {
+void SecondWorld::begin(const World& a, double seconds) {
   world_.reset();
+  failed_ = false;
   {
     std::lock_guard lock(mutex_);
     shown_ = {};
@@ -64,7 +66,7 @@ void SecondWorld::begin(const World& a) {
     shown_.alone = from_start() && !made_alike(*a.frame(), *world_->frame());
   }
   keyframes_.reset(*world_);
-  follow(a);
+  follow(a, seconds);
 }
 
 Status SecondWorld::make(const World& a) {
@@ -83,15 +85,20 @@ double SecondWorld::ticks_of_b(const World& a) const {
   return double(a.tick() - begun_a_) * a.settings().tick.tick() / world_->settings().tick.tick();
 }
 
-void SecondWorld::go_back(const World& a) {
-  if (!world_ || a.tick() < begun_a_) return begin(a);
+void SecondWorld::go_back(const World& a, double seconds) {
+  if (!world_ || a.tick() < begun_a_) return begin(a, seconds);
   const uint64_t tick = begun_b_ + uint64_t(ticks_of_b(a) + 1e-6);
-  if (tick < keyframes_.first_tick()) return begin(a);
+  if (tick < keyframes_.first_tick()) return begin(a, seconds);
   const SimdTarget target(choice_.simd);
+  const size_t told = a.replay_log().entries().size();
+  if (tick > world_->tick()) {  // it was on its way, and had not come so far
+    commands_ = std::min(commands_, told);
+    return follow(a, seconds);
+  }
   if (tick < world_->tick())
     if (const Status found = keyframes_.seek(*world_, tick); !found)
       return fail(found.error().text());
-  commands_ = a.replay_log().entries().size();
+  commands_ = told;
   see(a);
 }
 
@@ -108,11 +115,17 @@ void SecondWorld::carry_out(const World& a, double until) {
   }
 }
 
-void SecondWorld::follow(const World& a) {
+bool SecondWorld::behind(const World& a) const {
+  return world_ && !failed_ && double(world_->tick() - begun_b_) + 1 <= ticks_of_b(a) + 1e-6;
+}
+
+void SecondWorld::follow(const World& a, double seconds) {
   if (!world_) return;
+  using Clock = std::chrono::steady_clock;
+  const auto since = Clock::now();
   const SimdTarget target(choice_.simd);
   const double step_b = world_->settings().tick.tick(), end = ticks_of_b(a) + 1e-6;
-  while (double(world_->tick() - begun_b_) + 1 <= end) {
+  while (behind(a)) {
     carry_out(a, double(world_->tick() - begun_b_) * step_b);
     const auto done = world_->step();
     if (!done) {
@@ -120,7 +133,9 @@ void SecondWorld::follow(const World& a) {
       return;
     }
     keyframes_.after_step(*world_);
+    if (std::chrono::duration<double>(Clock::now() - since).count() >= seconds) break;
   }
+  if (behind(a)) return see(a);
   carry_out(a, end * step_b);
   (void)world_->apply_commands();
   see(a);
@@ -141,7 +156,8 @@ void SecondWorld::see(const World& a) {
   } else {
     shown_.to = frame_b;
   }
-  // Compared only at times that both have.
+  shown_.behind = std::max(0.0, apart);
+  // Only at moments that both have.
   if (std::abs(apart) > 1e-9) return;
   shown_.now = d;
   if (!d.same_bits && !shown_.first) shown_.first = d;
@@ -159,6 +175,7 @@ SecondWorld::Shown SecondWorld::shown() const {
 }
 
 void SecondWorld::fail(const std::string& why) {
+  failed_ = true;
   std::lock_guard lock(mutex_);
   shown_.fault = why;
 }

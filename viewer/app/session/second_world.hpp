@@ -5,6 +5,7 @@
 #include "engine/world/world_def.hpp"
 #include "viewer/app/verify/lockstep.hpp"
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,13 +25,17 @@ class SecondWorld {
   SecondWorld(WorldChoice choice, const World& made);
 
   // -- simulation thread --------------------------------------------------------------------------
-  // Makes B a copy of A's present state with B's own settings, or sets it to its own first tick and
-  // steps it to A's time. A failure is reported in the comparison and stops B.
-  void begin(const World& a);
-  /// Applies A's commands since the last call, except for settings, and steps B to A's time.
-  void follow(const World& a);
-  /// A has gone back in time: B does so too, or starts anew if it did not exist at that time.
-  void go_back(const World& a);
+  static constexpr double no_limit = std::numeric_limits<double>::infinity();
+  /// B becomes what A is now, with its own settings, or begins at its own first tick and catches
+  /// up. A failure is shown, and stops B.
+  void begin(const World& a, double seconds = no_limit);
+  /// Carries out what was done to A since, but for settings, and steps B up to A's moment, or, by
+  /// one tick at least, for so long: then it is still behind.
+  void follow(const World& a, double seconds = no_limit);
+  /// A has gone back on its own course: B goes with it, or begins anew where it was not there yet.
+  void go_back(const World& a, double seconds = no_limit);
+  /// B has not come to A's moment yet, and can.
+  bool behind(const World& a) const;
   void stop_with(const StopFlag* flag);
 
   // -- any thread ---------------------------------------------------------------------------------
@@ -45,7 +50,8 @@ class SecondWorld {
     std::optional<ContactDifference> first_contact;  ///< the first contact that differs
     bool alone = false;  ///< B has other bodies: commands to A are not applied to it
     Divergence now, worst;
-    std::string fault;  ///< why B has stopped; empty: it runs
+    std::string fault;  ///< why B stopped; empty: it did not
+    double behind = 0;  ///< how far it is from A's moment while it catches up [s]
   };
   Shown shown() const;
   const WorldChoice& choice() const { return choice_; }
@@ -65,8 +71,9 @@ class SecondWorld {
   std::unique_ptr<World> world_;
   KeyframeRing keyframes_;
   const StopFlag* stop_ = nullptr;
-  uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both when the comparison began
-  size_t commands_ = 0;                 ///< number of commands of A's log that were applied
+  uint64_t begun_a_ = 0, begun_b_ = 0;  ///< ticks of both at the beginning
+  size_t commands_ = 0;                 ///< of A's log that were carried out
+  bool failed_ = false;                 ///< nothing more comes of it until it begins anew
 
   mutable std::mutex mutex_;
   Shown shown_;

@@ -17,6 +17,9 @@ namespace {
 constexpr double most_behind = 0.1;
 /// A tick under way for longer than this is cancelled by requests to go back [s].
 constexpr double slow_tick = 0.1;
+/// For so long a second world catches up before others have their turn: a picture at 60 Hz [s].
+constexpr double catch_up_slice = 1.0 / 60;
+constexpr double no_limit = SecondWorld::no_limit;
 
 using Seconds = std::chrono::duration<double>;
 
@@ -122,9 +125,9 @@ void Session::post(std::function<void(World&)> change) {
   enqueue([this, change = std::move(change)] {
     change(*world_);
     if (!world_->apply_commands()) return;
-    (void)follow_replay();  // the command may have ended the replay
-    if (second_) second_->follow(*world_);
-    // While paused nothing else would publish it.
+    (void)follow_replay();  // it may have been left
+    if (second_) second_->follow(*world_, second_->behind(*world_) ? catch_up_slice : no_limit);
+    // While paused nothing else would show it.
     if (paused()) {
       previous_ = world_->frame();
       publish(0);
@@ -161,7 +164,7 @@ void Session::set_second(std::shared_ptr<SecondWorld> second) {
     second_ = second;
     if (!second_) return;
     second_->stop_with(&stop_);
-    second_->begin(*world_);
+    second_->begin(*world_, catch_up_slice);
   });
 }
 
@@ -249,7 +252,7 @@ void Session::restart(std::function<void(World&)> begin) {
       begun = world_->apply_commands();
     }
     if (!begun) fail(begun.error());
-    if (second_) second_->begin(*world_);
+    if (second_) second_->begin(*world_, catch_up_slice);
     note_rewind();
     publish(0);
   });
@@ -301,7 +304,7 @@ void Session::restore(std::shared_ptr<const Kept> kept) {
   interrupt([this, kept = std::move(kept)] {
     if (auto status = world_->restore(kept->moment); !status) return fail(status.error());
     keyframes_ = kept->keyframes;
-    if (second_) second_->begin(*world_);
+    if (second_) second_->begin(*world_, catch_up_slice);
     note_rewind();
     publish(0);
   });
@@ -364,6 +367,8 @@ Status Session::advance(uint64_t ticks) {
     if (auto status = step_once(); !status) return status;
     run_posted();
   }
+  // Without a thread of its own there is nobody to go on later.
+  if (second_) second_->follow(*world_);
   publish(0);
   return {};
 }
@@ -383,7 +388,7 @@ void Session::go_to(uint64_t tick) {
     if (!found) fail(found.error());
     // Later jumps to this tick, e.g. by loops, need not compute it again.
     if (found && keyframes_.last_tick() < world_->tick()) keyframes_.keep(*world_);
-    if (second_) second_->go_back(*world_);
+    if (second_) second_->go_back(*world_, catch_up_slice);
     note_rewind();
     before_ = before;
   } else {
@@ -462,12 +467,13 @@ Status Session::follow_replay(bool anew) {
 Status Session::step_once() {
   const auto start = Clock::now();
   previous_ = world_->frame();
+  const bool level = second_ && !second_->behind(*world_);
   const auto report = timed([&] { return world_->step(); });
   if (!report) return report.error();
   if (Status done = follow_replay(); !done) return done;
   before_ = previous_;
   keyframes_.after_step(*world_);
-  if (second_) second_->follow(*world_);
+  if (second_) second_->follow(*world_, level ? no_limit : catch_up_slice);
   for (const auto& watcher : watchers_) watcher->see(*world_->frame());
   const auto end = Clock::now();
   const double spent = Seconds(end - start).count();
@@ -497,9 +503,14 @@ void Session::publish(double span) {
 void Session::run() {
   next_due_ = rate_since_ = Clock::now();
   while (true) {
+    // It is compared at moments that both have: A waits for B, and everybody else for neither.
+    const bool catching_up = second_ && second_->behind(*world_);
     {
       std::unique_lock lock(mutex_);
-      if (counters_.paused && !quit_ && posted_.empty()) {
+      if (catching_up) {
+        next_due_ = rate_since_ = Clock::now();
+        rate_ticks_ = 0;
+      } else if (counters_.paused && !quit_ && posted_.empty()) {
         wake_.wait(lock, [this] { return quit_ || !counters_.paused || !posted_.empty(); });
         next_due_ = rate_since_ = Clock::now();
         rate_ticks_ = 0;
@@ -509,6 +520,10 @@ void Session::run() {
       if (quit_) return;
     }
     run_posted();
+    if (catching_up) {
+      if (second_) second_->follow(*world_, catch_up_slice);
+      continue;
+    }
     double span = 0;
     {
       std::lock_guard lock(mutex_);

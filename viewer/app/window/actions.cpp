@@ -170,6 +170,9 @@ void Application::perform(Action action) {
       if (!scene_.lesson) return ui_.toast(ToastKind::info, "This scene teaches nothing");
       flip(ui_.shows(PanelId::lesson), action);
       return;
+    case Action::toggle_description:
+      flip(ui_.shows(PanelId::description), action);
+      break;
     case Action::toggle_parts:
       flip(ui_.shows(PanelId::parts), action);
       return;
@@ -366,6 +369,10 @@ void Application::apply(const UiRequest& request) {
     compare(chosen->choice);
   } else if (std::holds_alternative<EndCompare>(request)) {
     second_.end(session());
+  } else if (const auto* described = std::get_if<EditDescription>(&request)) {
+    edit_description(*described);
+  } else if (std::holds_alternative<LeaveDraft>(request)) {
+    description_.leave_draft();
   } else if (const auto* part = std::get_if<EditPart>(&request)) {
     edit_part(*part);
   } else if (const auto* part_gone = std::get_if<RemovePart>(&request)) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -63,6 +65,7 @@ void Application::show(OpenedScene scene, bool goes_on) {
   selection_.clear();
   second_.forget();
   deeds_.forget();
+  removal_trial_.reset();
   tools_.open(scene.parts, scene.live_parts);
   ui_.part = {};
   ui_.pulled_parameters.clear();
@@ -159,6 +162,25 @@ void Application::show_notices() {
     ui_.toast(ToastKind::warning, "This is not possible", {refusal->text()});
   if (auto along = tools_.refusal.take_told(); !along.empty())
     ui_.toast(ToastKind::info, "What needed it is gone, too", std::move(along));
+  warn_of_removal();
+}
+
+/// The running world goes on without what was deleted, where its file may not open any more: water
+/// without a floor falls for ever.
+void Application::warn_of_removal() {
+  if (auto left = tools_.refusal.take_left())
+    removal_trial_ = std::make_unique<OpeningTrial>(
+        *std::move(left), scene_.file.pack.empty() ? scene_.file.path : scene_.file.read_from,
+        options_.own_thread);
+  const auto opens = removal_trial_ ? removal_trial_->take() : std::nullopt;
+  if (!opens) return;
+  removal_trial_.reset();
+  if (*opens) return;
+  ui_.toast(ToastKind::warning, "Without it this scene does not open again",
+            {opens->error().message,
+             fmt::format("{} brings it back; or put something in its place ({} builds), or delete "
+                         "what needs it, before you save.",
+                         shortcut_of(Action::undo), shortcut_of(Action::toggle_build))});
 }
 
 void Application::forget_what_is_gone() {
@@ -230,6 +252,7 @@ UiModel Application::model() const {
   m.changing_mesh = tools_.mesh_modes.changing();
   m.reading_mesh = tools_.mesh_palette.reading();
   m.palette_fault = tools_.mesh_palette.fault();
+  m.description = description_.view();
   m.contact = instruments_.probe.view();
   m.has_snapshot = world_.has_snapshot();
   m.question = question_.question();
@@ -264,6 +287,7 @@ Status Application::frame(std::span<const InputEvent> events, double dt, const P
   look_at_marks();
 
   keep_hints();
+  look_at_description();
   tools_.parts.update(session(), deeds_.edits().file_edits());
   look_at_files(dt);
   scene_file_.update(ui_.save_file);

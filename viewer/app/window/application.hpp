@@ -1,4 +1,6 @@
 #pragma once
+#include "viewer/app/editing/description_desk.hpp"
+#include "viewer/app/editing/opening_trial.hpp"
 #include "viewer/app/editing/removal.hpp"
 #include "viewer/app/session/shown_settings.hpp"
 #include "viewer/app/session/shown_world.hpp"
@@ -185,6 +187,12 @@ class Application {
   void change_settings(const WorldSettings& wanted);
   void edit_body(const EditBody& edit);
   void rename_body(const std::string& name, const std::string& to);
+  std::string described_text();
+  void look_at_description();
+  void edit_description(const EditDescription& edit);
+  bool describe_live(const std::string& before, const std::string& after, const ScenePath& path,
+                     const std::string& what);
+  void finish_description(const Status& opened);
   void edit_joint(const EditJoint& edit);
   void take_mesh_modes();
   void remove_joint(JointId id);
@@ -204,6 +212,7 @@ class Application {
   void end_drag();
   void look_into(const std::optional<ContactPick>& contact);
   void forget_what_is_gone();
+  void warn_of_removal();
   void restart(bool as_scene);
   void flip_overlay(bool Overlays::*overlay, Action action);
   bool shows_anything(bool Overlays::*overlay);
@@ -275,8 +284,10 @@ class Application {
   ComparisonDesk second_;
 
   DeedDesk deeds_;
+  DescriptionDesk description_;
   Selection selection_;
   EditingTools tools_;
+  std::unique_ptr<OpeningTrial> removal_trial_;  ///< null: nothing was deleted, or all is known
   Instruments instruments_;
   MarksDesk marks_;
   /// Overlays switched on by the lesson's page, and those switched on for building.
@@ -297,10 +308,10 @@ class Application {
   std::vector<InputEvent> early_text_;  ///< typed before the search field had the keyboard
   bool searched_ = false;               ///< a search for a quantity was active
   Thumbnails thumbnails_;
-  /// A body being renamed (old and new name), while the scene is opened anew.
-  std::optional<std::pair<std::string, std::string>> renaming_;
-  /// Folder of the file browser; none: the list of scenes is shown.
-  std::optional<FolderView> browsed_;
+  std::optional<std::pair<std::string, std::string>> renaming_;  ///< a body, while that is opened
+  std::vector<std::string> described_along_;  ///< went with what was left out of the description
+  bool described_camera_ = false;             ///< a camera was changed, which is to be seen
+  std::optional<FolderView> browsed_;         ///< none: the list of scenes is shown
   bool quit_ = false, full_screen_ = false;
 };
 

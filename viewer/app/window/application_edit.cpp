@@ -1,5 +1,6 @@
 // The user's changes in the world, and undo.
 #include "engine/world/world.hpp"
+#include "viewer/app/editing/mesh_cure.hpp"
 #include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
 
@@ -39,6 +40,11 @@ bool Application::in_gesture() const {
 
 void Application::take_back() {
   end_drag();
+  if (description_.opening()) return;  // it is known soon whether that makes a scene
+  if (description_.has_draft()) {
+    const std::string what = description_.take_back(described_text(), scene_.file.path);
+    return ui_.toast(ToastKind::info, "Taken back: " + what);
+  }
   tools_.parts.note();
   const auto back = deeds_.take_back(session(), selection_.all());
   if (!back) {
@@ -222,7 +228,8 @@ void Application::take_mesh_modes() {
   auto made = tools_.mesh_modes.take();
   if (!made) return;
   if (!made->parts)
-    return ui_.toast(ToastKind::warning, "This is not possible", {made->parts.error().text()});
+    return ui_.toast(ToastKind::warning, "This is not possible",
+                     {with_cure_in_window(made->parts.error()).text()});
   edit_body({made->wish.id, made->wish.what,
              [group = made->wish.group, mesh = made->wish.source->mesh,
               parts = *made->parts](BodyDef& def) {

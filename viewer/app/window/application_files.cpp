@@ -93,12 +93,15 @@ void Application::finish_opening(SceneOpening::Opened done) {
   auto& [asked, opened, cause] = done;
   auto& choice = cause.choice;
   if (!opened) {
+    finish_description(opened.error());
     const std::string file = std::filesystem::path(asked.scene).filename().string();
     return ui_.toast(ToastKind::error, "'" + file + "' cannot be opened",
                      lines_of(opened.error().text()));
   }
   ui_.toasts.clear();
-  // The same scene with other numbers or another text keeps camera and pause.
+  finish_description({});
+  // The same scene with other numbers or another text is looked at from where one stands, and
+  // waits if it did.
   const bool same = asked.scene == scene_.wish.scene &&
                     (choice || !asked.overrides.empty() || asked.text || cause.reloads);
   const bool paused = session().paused();
@@ -110,6 +113,11 @@ void Application::finish_opening(SceneOpening::Opened done) {
                                                       : deeds_.unsaved().free_name();
   }
   const LookedAt looked_at = same ? looked_at_in(*opened) : LookedAt{};
+  // What does not act on bodies (cameras, light, words) leaves the world as it is, at this moment.
+  const bool same_world =
+      same && choice && opened->world_hash == scene_.world_hash && opened->world_hash != 0;
+  const auto moment = same_world ? session().keep() : nullptr;
+  if (!same) description_.forget();
   renaming_.reset();
   const SceneCamera camera = camera_;
   show(std::move(*opened), same);
@@ -119,8 +127,11 @@ void Application::finish_opening(SceneOpening::Opened done) {
   for (const BodyId id : looked_at.selected) selection_.add(id);
   for (const Quantity& quantity : looked_at.curves)
     instruments_.measures.add(quantity, world_.frame());
-  camera_.go_on_from(camera);
-  if (cause.tick > 0) session().seek(cause.tick);
+  if (!std::exchange(described_camera_, false)) camera_.go_on_from(camera);
+  if (same_world)
+    session().restore(moment);
+  else if (cause.tick > 0)
+    session().seek(cause.tick);
   session().set_paused(paused);
 }
 
@@ -339,13 +350,14 @@ void Application::write_scene(const std::string& file) {
   }
   ui_.shows(PanelId::save) = false;
   ui_.save_fault.clear();
+  const std::string before = scene_.file.on_disk;
   scene_.file = scene_file_.file();
-  deeds_.choices().forget();  // the scene without these choices is not a file any more
   marks_.go_on_as(marked_scene());
   // The scene's file is now that one: opening it anew gives what was saved.
   std::error_code none;
   scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
   scene_.wish.text.reset();
+  deeds_.choices().saved(scene_.wish.scene, before);
   deeds_.unsaved().saved(scene_.file);
   // Messages about a version that could not be opened are outdated.
   std::erase_if(ui_.toasts, [](const Toast& t) { return t.title.ends_with("cannot be opened"); });

@@ -24,6 +24,15 @@ std::optional<ChoiceHistory::Step> ChoiceHistory::again() const {
   return step;
 }
 
+void ChoiceHistory::saved(const std::string& scene, const std::string& text) {
+  for (std::vector<Step>* steps : {&done_, &undone_})
+    for (Step& step : *steps)
+      for (SceneWish* wish : {&step.before, &step.after}) {
+        wish->scene = scene;
+        if (!wish->text) wish->text = text;
+      }
+}
+
 void ChoiceHistory::gone(Step step) {
   if (step.way == Way::back) {
     if (!done_.empty()) done_.pop_back();

@@ -32,7 +32,10 @@ class ChoiceHistory {
   void gone(Step step);
   /// Another action was taken: nothing can be redone any more.
   void forget_taken_back() { undone_.clear(); }
-  /// To be called when another scene, or another text of this one, is shown.
+  /// The scene was saved to `scene`, whose file was `text` before: what meant the file as it was
+  /// means that text from now on.
+  void saved(const std::string& scene, const std::string& text);
+  /// Another scene is shown, or this one has another text.
   void forget() { *this = ChoiceHistory{}; }
   /// Whether there is nothing to undo.
   bool empty() const { return done_.empty(); }

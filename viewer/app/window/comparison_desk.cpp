@@ -110,6 +110,7 @@ void ComparisonDesk::update(const Frame& shown, const WorldChoice& of_a) {
   if (seen_.to) trails_.see(*seen_.to);
   comparison_.from_start = second_->from_start();
   comparison_.alone = seen_.alone;
+  comparison_.behind = seen_.behind;
   for (const SecondWorld::Sample& sample : seen_.samples) {
     comparison_.times.push_back(sample.time);
     comparison_.distances.push_back(float(sample.distance));

@@ -1,11 +1,13 @@
 #include "viewer/app/window/open_scene.hpp"
 
+#include "engine/core/hash.hpp"
 #include "engine/scene/build/live_parts.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/pack/pack.hpp"
 #include "engine/scene/resources.hpp"
 #include "engine/scene/robot_files/robot_parts.hpp"
 #include "engine/scene/saving/json_text_edit.hpp"
+#include "engine/scene/visitors/object_writer.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/editing/unsaved_work.hpp"
 #include "viewer/app/scenes/quantities.hpp"
@@ -93,6 +95,17 @@ std::vector<SceneParameter> parameters_of(const SceneDescription& scene, const s
   return out;
 }
 
+/// Of what the scene says about bodies and all that acts on them. Words, cameras, light and what is
+/// checked or taught leave the world as it is.
+uint64_t hash_of_world(const SceneDescription& scene) {
+  Json said = write_object(scene);
+  for (const char* beside : {"title", "description", "category", "assertions", "cameras", "lights",
+                             "look", "microscope", "lesson"})
+    said.erase(beside);
+  const std::string text = said.dump();
+  return hash_bytes(text.data(), text.size());
+}
+
 std::shared_ptr<const NamedQuantities> named_quantities(std::shared_ptr<const BuiltScene> names,
                                                         const Frame& frame) {
   auto out = std::make_shared<NamedQuantities>();
@@ -120,6 +133,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   out.name = loaded->name;
   out.wish = {request.scene, request.overrides, request.text};
   out.file = file_of(*loaded, request);
+  out.world_hash = hash_of_world(*description);
   out.parameters = parameters_of(*description, out.file.text);
   out.title = description->title;
   out.doc = description->description;

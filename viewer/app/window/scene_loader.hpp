@@ -41,10 +41,11 @@ struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
   std::string name, title, doc;
   SceneFile file;                          ///< for saving
-  SceneWish wish;                          ///< the wish with which it was opened
-  std::vector<SceneParameter> parameters;  ///< numbers that the scene declares
-  ViewPoint view;                          ///< initial camera
-  std::function<void(RenderScene&)> look;  ///< sets sun, sky and ground; may be empty
+  SceneWish wish;                          ///< that it was opened by
+  std::vector<SceneParameter> parameters;  ///< numbers that it declares
+  uint64_t world_hash = 0;                 ///< of all in the file that acts on bodies; 0: not known
+  ViewPoint view;                          ///< where a person looks at it first
+  std::function<void(RenderScene&)> look;  ///< sun, sky, ground; may be empty
   std::optional<MicroscopeSetup> microscope;
   Overlays overlays;            ///< overlays that the scene wants
   double trail = 0;             ///< length of the paths behind moving bodies [s]

@@ -39,6 +39,7 @@ void draw_choices(PanelContext& context, const WorldComparison& c) {
     context.host.mark("compare.differs." + d.path);
   }
   if (c.from_start) note("With other numbers B is another scene: both begin at its start.");
+  if (c.behind > 0) note(fmt::format("B is on its way to this moment: {:.2f} s to go.", c.behind));
   if (c.alone) note("B is not made of the same bodies: what is done to A is not done to it.");
 }
 

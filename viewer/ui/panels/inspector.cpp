@@ -137,6 +137,17 @@ void draw_buttons(PanelContext& context, BodyId id) {
   tooltip_with_key(context, "delete this body", shortcut_of(Action::delete_body));
 }
 
+/// All that the file can say of a body: its course, repetition, what is drawn, and the like.
+void draw_way_to_description(PanelContext& context, const std::string& name) {
+  if (ImGui::Button("All that the scene says of it ...")) {
+    context.state.described = ScenePath{} / "bodies" / name.substr(0, name.find('['));
+    context.state.shows(PanelId::description) = true;
+  }
+  context.host.mark("inspector.describe");
+  tooltip_with_key(context, "every value of the file: course, copies, what is drawn, label",
+                   shortcut_of(Action::toggle_description));
+}
+
 }  // namespace
 
 void draw_inspector_panel(PanelContext& context) {
@@ -174,6 +185,7 @@ void draw_inspector_panel(PanelContext& context) {
   draw_motion(context, body, info);
   ImGui::Dummy(ImVec2(0, 2));
   draw_buttons(context, body.id);
+  draw_way_to_description(context, info.name);
   draw_contacts(context, frame, body.id);
   draw_joint_form(context);
   if (context.model.selected_def) {

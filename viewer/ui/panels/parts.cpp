@@ -78,6 +78,14 @@ void draw_parts_panel(PanelContext& context) {
     section(context, chosen.name.c_str());
     if (ImGui::Button("Delete")) context.ask(RemovePart{chosen.name, *part});
     context.host.mark("parts.delete");
+    ImGui::SameLine();
+    if (ImGui::Button("All values ...")) {
+      context.state.described = ScenePath{} / chosen.list / chosen.name;
+      context.state.shows(PanelId::description) = true;
+    }
+    context.host.mark("parts.describe");
+    tooltip_with_key(context, "every value of the file, and its name",
+                     shortcut_of(Action::toggle_description));
     if (chosen.list == "sensors") {
       note("It begins anew with each change.");
       draw_curve(context, chosen.name);

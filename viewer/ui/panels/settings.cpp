@@ -42,6 +42,14 @@ void draw_settings_panel(PanelContext& context) {
   if (draw_threads_slider(context, "settings.threads", threads))
     context.ask(ChangeThreads{threads});
   draw_quality(context);
+  ImGui::Dummy(ImVec2(0, 2));
+  if (ImGui::Button("All that the scene says ...", ImVec2(-1, 0)))
+    context.state.shows(PanelId::description) = true;
+  context.host.mark("settings.describe");
+  tooltip_with_key(context,
+                   "cameras, light, materials, numbers of the scene, lesson: every value of "
+                   "its file",
+                   shortcut_of(Action::toggle_description));
   ImGui::PopStyleVar(2);
 }
 

@@ -1,0 +1,237 @@
+// All that the scene's file says, changed in the window by pointer and keys. Reference: the file as
+// it would be written by hand, byte for byte; states of the world before and after.
+#include "engine/scene/build.hpp"
+#include "tests/viewer/ui/laboratory.hpp"
+
+#include <algorithm>
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// A laboratory with a file of these bodies and what else is said.
+struct Described : Laboratory {
+  explicit Described(const std::string& members) {
+    start = "{\n  \"tumble_scene\": 1, // mine\n" + members + "\n}\n";
+    REQUIRE(write_file(file, std::string_view(start)).ok());
+    rig.app->open(file);
+    play("key B\nwait 3");  // nothing is to be built
+    REQUIRE(rig.tick() == 0);
+    rig.app->session().set_paused(true);
+    start_hash = hash();
+    play("key Shift+I\nwait 3");
+  }
+  void go(const std::string& place) {
+    play("click description.way.0\nwait 2");
+    std::string rest = place;
+    while (!rest.empty()) {
+      const size_t dot = rest.find('.');
+      play("click description." + rest.substr(0, dot) + "\nwait 2");
+      rest = dot == std::string::npos ? std::string() : rest.substr(dot + 1);
+    }
+  }
+  void type_in(const std::string& key, const std::string& value) {
+    play("click description." + key + "\nwait 2\nkey Ctrl+A\ntext " + value +
+         "\nkey Enter\nwait 4");
+  }
+  void add(const std::string& key) {
+    play("click description.add\nwait 2\nclick description.add." + key + "\nwait 4");
+  }
+  void choose(const std::string& key, const std::string& value, const char* list = "") {
+    play("click description." + key + list + "\nwait 2\nclick description." + key + "." + value +
+         "\nwait 4");
+  }
+  /// The file would be this now.
+  std::string saved() {
+    save();
+    return content();
+  }
+  bool faulty() const { return rig.app->locate("description.faults").has_value(); }
+};
+
+const std::string two_bodies = R"(  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" }, "material": "wood" },
+    "ball": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [0, 2, 0] } // round
+  },
+  "cameras": { "main": { "position": [0, 2.5, 9], "target": [0, 1.5, 0] } })";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "description: a body becomes kinematic, gets a course, copies and a label, and none again") {
+  Described b(two_bodies);
+  b.go("bodies.ball");
+  b.add("type");
+  b.choose("type", "kinematic");
+  b.add("course");
+  REQUIRE(b.rig.app->locate("description.x").has_value());  // it begins with one that works
+  b.type_in("x", "= 0.5*sin(2*t)");
+  b.play("click description.way.2\nwait 2");
+  b.add("repeat");
+  b.play("click description.way.2\nwait 2");
+  b.add("look");
+  b.add("label");
+  b.type_in("label", "moved");
+  CHECK(b.saved() ==
+        with(b.start, R"("position": [0, 2, 0] })",
+             R"x("position": [0, 2, 0], "type": "kinematic", )x"
+             R"x("course": { "x": "= 0.5*sin(2*t)" }, )x"
+             R"x("repeat": [{ "type": "grid", "count": [1, 1, 1], "spacing": [1.0, 1.0, 1.0] }], )x"
+             R"x("look": { "label": "moved" } })x"));
+  REQUIRE_FALSE(b.world().find_body("ball[0]").is_null());
+  REQUIRE(b.rig.app->session().advance(60).ok());
+  CHECK(b.world().body(b.world().find_body("ball[0]"))->pose.x.x() ==
+        doctest::Approx(0.5 * std::sin(2 * b.world().time())));
+  check_no_faults(*b.device);
+}
+
+TEST_CASE(
+    "description: each change is one step of undo, back to the file and the world as they were") {
+  Described b(two_bodies);
+  b.go("bodies.ball");
+  b.add("starts_asleep");
+  b.add("inertia");
+  b.play("click description.shape\nwait 2");
+  b.choose("type", "box");
+  CHECK(b.hash() != b.start_hash);
+  b.go("");
+  b.add("materials");
+  b.play("click description.add\nwait 4");
+  b.add("friction");
+  b.type_in("name", "mud");
+  const uint64_t built_hash = b.hash();
+  const std::string built = b.saved();
+  CHECK(built.find(R"("starts_asleep": true)") != std::string::npos);
+  CHECK(built.find(R"("materials": { "mud": { "friction": 0 } })") != std::string::npos);
+  int steps = 0;
+  for (; steps < 50 && !says(b.rig, "nothing to take back"); ++steps) b.play("key Ctrl+Z\nwait 4");
+  CHECK(steps == 8);  // seven changes, of which saving has forgotten none
+  CHECK(b.hash() == b.start_hash);
+  CHECK(b.saved() == b.start);
+  for (int i = 0; i < 7; ++i) b.play("key Ctrl+Shift+Z\nwait 4");
+  CHECK(b.hash() == built_hash);
+  CHECK(b.saved() == built);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: what makes no scene yet is kept and said, and hurts nothing") {
+  Described b(two_bodies);
+  b.go("bodies.ball.shape");
+  b.type_in("radius", "-1");
+  CHECK(b.faulty());
+  CHECK(b.hash() == b.start_hash);
+  b.play("click description.way.2\nwait 2");
+  b.type_in("position.y", "3");  // a second one, while the first is wrong
+  CHECK(b.faulty());
+  CHECK(b.hash() == b.start_hash);
+  b.play("click description.shape\nwait 2");
+  b.type_in("radius", "0.25");  // mended: both hold
+  CHECK_FALSE(b.faulty());
+  CHECK(place(b, "ball").y() == 3);
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.hash() == b.start_hash);
+  // Thrown away it is as if nothing had been typed.
+  b.go("bodies.ball.shape");
+  b.type_in("radius", "-1");
+  b.play("click description.draft.leave\nwait 3");
+  CHECK_FALSE(b.faulty());
+  // A name of nothing.
+  b.go("bodies.ball");
+  b.add("material");
+  b.type_in("material", "unobtainium");
+  CHECK(b.faulty());
+  b.play("key Ctrl+Z\nwait 3");
+  CHECK_FALSE(b.faulty());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: cameras and light change at once at the moment that is shown") {
+  Described b(two_bodies);
+  REQUIRE(b.rig.app->session().advance(50).ok());
+  b.play("wait 3");
+  REQUIRE(b.rig.tick() == 50);
+  const uint64_t now = b.hash();
+  b.go("cameras.main");
+  b.type_in("position.x", "4");
+  CHECK(b.rig.tick() == 50);
+  CHECK(b.hash() == now);
+  CHECK(b.rig.app->camera().camera().eye.x() == doctest::Approx(4));
+  // The way to this moment is still there to be stepped back.
+  b.play("key ,\nwait 3");
+  CHECK(b.rig.tick() == 49);
+  b.play("key .\nwait 3");
+  CHECK(b.hash() == now);
+  b.go("");
+  b.add("look");
+  b.add("exposure");
+  CHECK(b.rig.tick() == 50);
+  CHECK(b.hash() == now);
+  // What acts on bodies is computed again, to the same moment.
+  b.go("bodies.ball");
+  b.type_in("position.y", "2.5");
+  CHECK(b.rig.tick() == 50);
+  CHECK(b.hash() != now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE(
+    "description: what is named elsewhere is chosen, renamed everywhere and told when it goes") {
+  Described b(two_bodies + R"(,
+  "joints": { "pivot": { "kind": "spherical", "b": "ball", "anchor": [0, 3, 0] } },
+  "assertions": [{ "holds": "joints.pivot.broken == 0" }])");
+  b.go("cameras.main");
+  b.add("follow");
+  b.choose("follow", "ball", ".names");
+  b.go("joints.pivot");
+  b.type_in("name", "hook");
+  std::string now = b.saved();
+  CHECK(now.find(R"("follow": "ball")") != std::string::npos);
+  CHECK(now.find(R"("hook": { "kind": "spherical")") != std::string::npos);
+  CHECK(now.find("joints.hook.broken") != std::string::npos);
+  b.go("bodies");
+  b.play("click description.ball.remove\nwait 4");
+  CHECK(says(b.rig, "joint hook"));
+  CHECK(b.world().find_body("ball").is_null());
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK_FALSE(b.world().find_body("ball").is_null());
+  CHECK(b.saved() == now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: a number is declared, and pulled in Settings") {
+  Described b(two_bodies);
+  b.go("bodies.ball.shape");
+  b.play("click description.radius.declare\nwait 4");
+  const std::string now = b.saved();
+  CHECK(now.find(R"("radius": "$radius")") != std::string::npos);
+  CHECK(now.find(R"("parameters": { "radius": 0.5 })") != std::string::npos);
+  CHECK(b.hash() == b.start_hash);
+  b.play("click bar.settings\nwait 3");
+  CHECK(b.rig.app->locate("parameters.radius").has_value());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: parts and settings change in the running world, expressions by restart") {
+  Described b(two_bodies + R"(,
+  "forces": { "air": { "type": "linear_drag", "rate": 0.5 } })");
+  REQUIRE(b.rig.app->session().advance(20).ok());
+  b.play("wait 3");
+  const uint64_t now = b.hash();
+  b.go("forces.air");
+  b.type_in("rate", "2");
+  CHECK(b.rig.tick() == 20);
+  CHECK(b.hash() == now);  // by a command: it acts from now on
+  CHECK(b.saved() == with(b.start, "0.5 } }", "2.0 } }"));
+  b.type_in("rate", "= 1 + 1");
+  CHECK(b.rig.tick() == 20);
+  CHECK(b.hash() != now);  // from the start on
+  CHECK(b.saved().find("\"= 1 + 1\"") != std::string::npos);
+  check_no_faults(*b.device);
+}

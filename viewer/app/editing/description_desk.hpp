@@ -1,0 +1,56 @@
+#pragma once
+#include "engine/scene/saving/dependents.hpp"
+#include "viewer/ui/description_view.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// The text of the scene's file as it is shown and changed value by value. A change that makes a
+/// scene is taken at once; one that the reader refuses is kept as a draft, with what is wrong, and
+/// so are those that follow, until together they make a scene: nothing that was typed is lost.
+class DescriptionDesk {
+ public:
+  /// Another scene is shown.
+  void forget() { *this = DescriptionDesk{}; }
+  /// Called once a picture: `text` as the scene's file would be now, and the place that is looked
+  /// at, which becomes the nearest one that is there.
+  void look(const std::string& text, ScenePath& place);
+  /// Null: there is no text.
+  const DescriptionView* view() const { return view_.outline ? &view_ : nullptr; }
+
+  struct Changed {
+    std::string text;
+    ScenePath place;                  ///< where to look at then
+    std::vector<TakenAlong> along;    ///< what went with something that was left out
+    std::vector<std::string> faults;  ///< of the whole text; empty: it is a scene
+  };
+  /// `text` with the draft and one more change. Error: this change is none.
+  Result<Changed> with(const std::string& text, const std::filesystem::path& file,
+                       const EditDescription& edit) const;
+
+  /// The change that was tried makes no scene, or is to be opened first, which takes its time.
+  void keep(EditDescription edit, std::vector<std::string> faults, bool opening);
+  /// What was to be opened could not be.
+  void refuse(std::vector<std::string> faults);
+  bool opening() const { return view_.opening; }
+  bool has_draft() const { return !draft_.empty(); }
+  /// The newest change of the draft is taken back; what it was.
+  std::string take_back(const std::string& text, const std::filesystem::path& file);
+  /// The draft is a scene now, or is not wanted any more.
+  void leave_draft();
+
+ private:
+  Result<Changed> with_draft(const std::string& text) const;
+
+  std::vector<EditDescription> draft_;
+  DescriptionView view_;
+  std::string shown_text_;  ///< of what the outline is
+  ScenePath shown_;
+  bool stale_ = true;
+};
+
+}  // namespace tumble

@@ -1,0 +1,397 @@
+#include "engine/scene/outline/outline_edits.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
+#include "viewer/ui/style.hpp"
+#include "viewer/ui/widgets.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace tumble {
+namespace {
+
+using How = EditDescription::How;
+
+constexpr float remove_width = 24;  ///< of the button behind each value
+constexpr float key_share = 0.42f;  ///< of a line, that the key takes
+
+std::string description_mark(const Member& what) {
+  return "description." +
+         (what.name.starts_with('[') ? what.name.substr(1, what.name.size() - 2) : what.name);
+}
+
+ScenePath below(const ScenePath& path, const Member& what) {
+  if (!what.name.starts_with('[')) return path / what.name;
+  return at_index(path, size_t(std::stoul(what.name.substr(1))));
+}
+
+/// A key as people write it; names of things stay as they are.
+std::string key_label(const Outline& outline, const Member& what) {
+  return outline.what.kind == MemberKind::object ? label_of(what.name) : what.name;
+}
+
+/// What the declaration says, with the range.
+std::string help_of(const Member& what) {
+  const std::string range = what.range();
+  return range.empty() ? what.doc : what.doc.empty() ? range : what.doc + "; " + range;
+}
+
+/// The fields of one place of the scene.
+class DescriptionForm {
+ public:
+  DescriptionForm(PanelContext& context, const Outline& outline)
+      : context_(context), outline_(outline) {}
+
+  void row(const OutlineKey& key);
+  void addition();
+  void name();
+
+ private:
+  void ask(const Member& what, How how, std::string value = {}) {
+    context_.ask(EditDescription{below(outline_.path, what), how, std::move(value)});
+  }
+  void set(const ScenePath& path, const Member& what, std::string_view typed);
+  void label(const OutlineKey& key);
+  bool typed(const std::string& mark, std::string now, float width, std::string& out);
+  void scalar(const OutlineKey& key, float width);
+  void numbers(const OutlineKey& key, float width);
+  void truth(const OutlineKey& key);
+  void choice(const OutlineKey& key, float width);
+  void names(const OutlineKey& key, const std::vector<std::string>& all);
+  void swatch(const OutlineKey& key);
+  void parts(const OutlineKey& key);
+  void remove(const OutlineKey& key);
+  void declare(const OutlineKey& key);
+
+  PanelContext& context_;
+  const Outline& outline_;
+};
+
+void DescriptionForm::set(const ScenePath& path, const Member& what, std::string_view typed) {
+  auto value = typed_value(what, typed);
+  if (!value) return context_.state.toast(ToastKind::warning, value.error().message);
+  context_.ask(EditDescription{path, How::set, *std::move(value)});
+}
+
+/// A field that is typed into; true, once, when it was left with another text.
+bool DescriptionForm::typed(const std::string& mark, std::string now, float width,
+                            std::string& out) {
+  TypedValue& typing = context_.state.describing;
+  const std::string before = now;
+  ImGui::SetNextItemWidth(width);
+  ImGui::InputText(("##" + mark).c_str(), &now, ImGuiInputTextFlags_AutoSelectAll);
+  context_.host.mark(mark);
+  if (ImGui::IsItemActive()) typing = {mark, now};
+  if (!ImGui::IsItemDeactivated() || typing.field != mark) return false;
+  const std::string last = std::exchange(typing, {}).text;
+  if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) return false;
+  // Left by Enter it has given the text, left by a click elsewhere it has forgotten it already.
+  out = now != before ? now : last;
+  return out != before;
+}
+
+void DescriptionForm::label(const OutlineKey& key) {
+  std::string text = key_label(outline_, key.what);
+  if (!key.what.unit.empty()) text += fmt::format(" [{}]", unit_words(key.what.unit));
+  ImGui::AlignTextToFramePadding();
+  const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
+  ImGui::TextUnformatted(shortened(text, width * key_share - 6).c_str());
+  ImGui::PopStyleColor();
+  tooltip_with_key(context_, help_of(key.what), {});
+  ImGui::SameLine(x + width * key_share);
+}
+
+void DescriptionForm::scalar(const OutlineKey& key, float width) {
+  const std::string mark = description_mark(key.what);
+  std::string text;
+  if (typed(mark, shown_value(key.text), width, text))
+    set(below(outline_.path, key.what), key.what, text);
+  tooltip_with_key(context_, help_of(key.what), {});
+}
+
+/// Numbers beside each other, each of which may be an expression.
+void DescriptionForm::numbers(const OutlineKey& key, float width) {
+  FaultList faults;
+  const auto now = parse_json(key.text, "", faults);
+  if (!now || !now->is(JsonNode::Kind::array) || now->items.size() != key.what.size)
+    return scalar(key, width);
+  Member number = key.what;
+  number.kind = MemberKind::number;
+  const float each = (width - 3 * float(key.what.size - 1)) / float(key.what.size);
+  for (size_t k = 0; k < key.what.size; ++k) {
+    if (k > 0) ImGui::SameLine(0, 3);
+    const std::string mark = fmt::format("{}.{}", description_mark(key.what), "xyzw"[k]);
+    std::string text;
+    if (typed(mark, shown_value(one_line(now->items[k])), each, text))
+      set(at_index(below(outline_.path, key.what), k), number, text);
+    tooltip_with_key(context_, help_of(key.what), {});
+  }
+}
+
+void DescriptionForm::truth(const OutlineKey& key) {
+  bool on = key.text == "true";
+  if (toggle(context_, description_mark(key.what), key_label(outline_, key.what).c_str(), on))
+    ask(key.what, How::set, on ? "true" : "false");
+  tooltip_with_key(context_, key.what.doc, {});
+}
+
+void DescriptionForm::choice(const OutlineKey& key, float width) {
+  const std::string mark = description_mark(key.what), now = shown_value(key.text);
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::BeginCombo(("##" + mark).c_str(), words_of(now).c_str())) {
+    for (const std::string& name : key.what.names) {
+      if (ImGui::Selectable(words_of(name).c_str(), name == now) && name != now)
+        set(below(outline_.path, key.what), key.what, name);
+      context_.host.mark(mark + "." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context_.host.mark(mark);
+  tooltip_with_key(context_, key.what.doc, {});
+}
+
+/// What a text may be, to be chosen instead of typed.
+void DescriptionForm::names(const OutlineKey& key, const std::vector<std::string>& all) {
+  const std::string mark = description_mark(key.what);
+  ImGui::SameLine(0, 0);
+  if (ImGui::BeginCombo(("##names" + mark).c_str(), nullptr,
+                        ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+    for (const std::string& name : all) {
+      if (ImGui::Selectable(name.c_str())) set(below(outline_.path, key.what), key.what, name);
+      context_.host.mark(mark + "." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context_.host.mark(mark + ".names");
+}
+
+/// The colour itself; pulled, it is given when it is let go.
+void DescriptionForm::swatch(const OutlineKey& key) {
+  const std::string mark = description_mark(key.what) + ".swatch";
+  TypedValue& typing = context_.state.describing;
+  const std::string said = typing.field == mark ? typing.text : shown_value(key.text);
+  const Colour colour = colour_from_text(said).value_or(Colour{});
+  float rgb[3] = {float(colour.r), float(colour.g), float(colour.b)};
+  if (ImGui::ColorEdit3(("##" + mark).c_str(), rgb,
+                        ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
+    typing = {mark, fmt::format("#{:02x}{:02x}{:02x}", int(rgb[0] * 255 + 0.5f),
+                                int(rgb[1] * 255 + 0.5f), int(rgb[2] * 255 + 0.5f))};
+  context_.host.mark(mark);
+  if (typing.field == mark && !ImGui::IsAnyItemActive())
+    set(below(outline_.path, key.what), key.what, std::exchange(typing, {}).text);
+  ImGui::SameLine(0, 4);
+}
+
+/// Something with keys of its own: a line that leads to it.
+void DescriptionForm::parts(const OutlineKey& key) {
+  const std::string mark = description_mark(key.what);
+  const float width = ImGui::GetContentRegionAvail().x - remove_width;
+  const ImVec2 at = ImGui::GetCursorPos();
+  if (ImGui::Selectable(("##" + mark).c_str(), false, 0, ImVec2(width, ImGui::GetFrameHeight())))
+    context_.state.described = below(outline_.path, key.what);
+  context_.host.mark(mark);
+  tooltip_with_key(context_, key.what.doc, {});
+  const ImVec2 next = ImGui::GetCursorPos();
+  ImGui::SetCursorPos(at);
+  label(key);
+  ImGui::TextUnformatted(shortened(key.summary, width * (1 - key_share) - 4).c_str());
+  ImGui::SameLine(at.x + width);
+  remove(key);
+  ImGui::SetCursorPos(next);
+}
+
+void DescriptionForm::remove(const OutlineKey& key) {
+  const bool stays = key.what.required && outline_.what.kind == MemberKind::object;
+  if (stays) return ImGui::Dummy(ImVec2(remove_width, 0));
+  ImGui::PushStyleColor(ImGuiCol_Button, 0);
+  ImGui::PushID(description_mark(key.what).c_str());
+  if (ImGui::Button("×", ImVec2(remove_width - 4, 0))) ask(key.what, How::remove);
+  ImGui::PopID();
+  ImGui::PopStyleColor();
+  context_.host.mark(description_mark(key.what) + ".remove");
+  tooltip_with_key(context_,
+                   key.what.fallback.empty() ? "leave it out"
+                                             : "leave it out: then " + key.what.fallback + " holds",
+                   {});
+}
+
+void DescriptionForm::declare(const OutlineKey& key) {
+  ImGui::SameLine(0, 2);
+  ImGui::PushID(description_mark(key.what).c_str());
+  if (ImGui::Button("$", ImVec2(remove_width - 4, 0))) ask(key.what, How::declare);
+  ImGui::PopID();
+  context_.host.mark(description_mark(key.what) + ".declare");
+  tooltip_with_key(context_, "a number of the scene from now on, with a slider in Settings", {});
+}
+
+void DescriptionForm::row(const OutlineKey& key) {
+  const Member& what = key.what;
+  if (what.has_parts() && (what.kind != MemberKind::object || key.text.starts_with('{')))
+    return parts(key);
+  float width = ImGui::GetContentRegionAvail().x * (1 - key_share) - remove_width - 2;
+  if (what.kind == MemberKind::truth) {
+    const float x = ImGui::GetCursorPosX(), all = ImGui::GetContentRegionAvail().x;
+    truth(key);
+    ImGui::SameLine(x + all - remove_width);
+    return remove(key);
+  }
+  label(key);
+  const std::vector<std::string> all =
+      what.kind == MemberKind::colour ? palette_names() : outline_.names_of(what.refers_to);
+  const bool number = what.is_number() && !key.text.starts_with('"') &&
+                      !key.text.starts_with('[') &&
+                      (outline_.path.empty() || outline_.path[0].key != "parameters");
+  const float arrow = ImGui::GetFrameHeight();
+  if (what.kind == MemberKind::choice) {
+    choice(key, width);
+  } else if (what.kind == MemberKind::vector) {
+    numbers(key, width);
+  } else if (what.kind == MemberKind::colour) {
+    swatch(key);
+    scalar(key, width - 2 * arrow - 4);
+    names(key, all);
+  } else if (!all.empty()) {
+    scalar(key, width - arrow);
+    names(key, all);
+  } else if (number) {
+    scalar(key, width - remove_width);
+    declare(key);
+  } else {
+    scalar(key, width);
+  }
+  ImGui::SameLine(0, 2);
+  remove(key);
+}
+
+/// What is not there and could be, with what it does.
+void DescriptionForm::addition() {
+  if (outline_.what.kind != MemberKind::object) {
+    const bool named = outline_.what.kind == MemberKind::map;
+    if (ImGui::Button("Add one")) {
+      const ScenePath path =
+          named ? outline_.path / "" : at_index(outline_.path, outline_.keys.size());
+      context_.ask(EditDescription{path, How::add, {}});
+    }
+    context_.host.mark("description.add");
+    return tooltip_with_key(context_, outline_.what.doc, {});
+  }
+  const bool any = std::ranges::any_of(outline_.keys, [](const auto& k) { return !k.present(); });
+  if (!any) return;
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(10000, 460));
+  if (ImGui::BeginCombo("##add", "add ...")) {
+    for (const OutlineKey& key : outline_.keys) {
+      if (key.present()) continue;
+      std::string label = label_of(key.what.name);
+      if (!key.what.unit.empty()) label += fmt::format(" [{}]", unit_words(key.what.unit));
+      if (ImGui::Selectable(label.c_str())) ask(key.what, How::add);
+      context_.host.mark("description.add." + key.what.name);
+      tooltip_with_key(context_, help_of(key.what), {});
+      if (!key.what.doc.empty()) {
+        ImGui::Indent(10);
+        ImGui::PushFont(context_.host.fonts().small);
+        wrapped(key.what.doc, palette::faint);
+        ImGui::PopFont();
+        ImGui::Unindent(10);
+      }
+    }
+    ImGui::EndCombo();
+  }
+  context_.host.mark("description.add");
+}
+
+/// What the scene calls it, here and wherever it is named.
+void DescriptionForm::name() {
+  ImGui::AlignTextToFramePadding();
+  small_text(context_, "name", palette::dim);
+  ImGui::SameLine(64);
+  std::string text;
+  if (typed("description.name", outline_.path.back().key, -1, text))
+    context_.ask(EditDescription{outline_.path, How::rename, text});
+  tooltip_with_key(context_, "what the scene calls it, wherever it is named", {});
+}
+
+/// From the scene down to what is shown, each step a button that leads back to it.
+void draw_way(PanelContext& context, const Outline& outline) {
+  ScenePath path;
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  for (size_t depth = 0; depth <= outline.path.size(); ++depth) {
+    std::string text = "Scene";
+    if (depth > 0) {
+      const PathStep& step = outline.path[depth - 1];
+      path.push_back(step);
+      text = step.index ? fmt::format("[{}]", *step.index) : step.key;
+      const float width = ImGui::CalcTextSize(text.c_str()).x + 14;
+      ImGui::SameLine(0, 2);
+      if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+    }
+    ImGui::PushID(int(depth));
+    if (ImGui::SmallButton(text.c_str())) context.state.described = path;
+    ImGui::PopID();
+    context.host.mark(fmt::format("description.way.{}", depth));
+  }
+}
+
+/// What has been changed and does not make a scene yet.
+void draw_draft(PanelContext& context, const DescriptionView& view) {
+  if (view.draft.empty()) return;
+  if (view.opening) return note("The scene is being opened with this change ...");
+  wrapped("Not a scene yet: the world is as before until this is mended.", palette::yellow);
+  for (const std::string& fault : view.faults) wrapped(fault, palette::red);
+  context.host.mark("description.faults");
+  if (ImGui::Button("Take back")) context.ask(Action::undo);
+  context.host.mark("description.draft.undo");
+  tooltip_with_key(context, view.draft.back(), shortcut_of(Action::undo));
+  ImGui::SameLine();
+  if (ImGui::Button("Throw all of it away")) context.ask(LeaveDraft{});
+  context.host.mark("description.draft.leave");
+  ImGui::Dummy(ImVec2(0, 4));
+}
+
+}  // namespace
+
+void draw_description_panel(PanelContext& context) {
+  const DescriptionView* view = context.model.description;
+  if (!view || !view->outline)
+    return note("What is shown has no file of its own whose values could be changed.");
+  const Outline& outline = *view->outline;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
+  draw_way(context, outline);
+  draw_draft(context, *view);
+  if (!outline.what.doc.empty()) note(outline.what.doc);
+  DescriptionForm form(context, outline);
+  ImGui::PushID(text_of(outline.path).c_str());
+  if (outline.named) form.name();
+  for (const OutlineKey& key : outline.keys)
+    if (key.present()) form.row(key);
+  ImGui::Dummy(ImVec2(0, 4));
+  form.addition();
+  ImGui::PopID();
+  ImGui::PopStyleVar();
+}
+
+std::string deed_of(const EditDescription& edit) {
+  const ScenePath around = outer_path(edit.path);
+  const std::string last = text_of({edit.path.begin() + ptrdiff_t(around.size()), edit.path.end()});
+  const std::string of = around.empty() ? std::string() : " of " + text_of(around);
+  switch (edit.how) {
+    case How::set:
+      return fmt::format("Change {}{}", last, of);
+    case How::add:
+      return fmt::format("Add {}{}", last, of);
+    case How::remove:
+      return fmt::format("Leave out {}{}", last, of);
+    case How::rename:
+      return fmt::format("Rename {} to {}", last, edit.value);
+    case How::declare:
+      return fmt::format("Declare {}{}", last, of);
+  }
+  return {};
+}
+
+}  // namespace tumble
