@@ -1,6 +1,7 @@
 #include "engine/dynamics/joints/joint_loops.hpp"
 
 #include "engine/dynamics/joints/joint_wrench.hpp"
+#include "engine/dynamics/joints/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,6 +84,11 @@ std::vector<JointLoops> find_loops(std::span<const Joint> joints, std::span<cons
     for (const uint32_t slot : {joints[j].a, joints[j].b})
       if (finder.moves(slot)) loops.bodies.push_back(slot);
   }
+  std::erase_if(out, [&](const JointLoops& loops) {
+    size_t rows = 0;
+    for (const uint32_t j : loops.joints) rows += row_count(joints[j].kind);
+    return rows > tolerances::most_shared_rows;
+  });
   std::vector<uint32_t> block_of(bodies.size(), no_block);
   for (JointLoops& loops : out) {
     std::ranges::sort(loops.bodies);

@@ -16,7 +16,8 @@ struct JointLoops {
   Articulation rows;             ///< of the joints; block i is bodies[i]
 };
 
-/// The loops among the joints `which`, separate where no body connects them.
+/// The loops among the joints `which`, separate where no body connects them, except those of more
+/// than `tolerances::most_shared_rows` rows.
 std::vector<JointLoops> find_loops(std::span<const Joint> joints, std::span<const uint32_t> which,
                                    std::span<const RigidBody> bodies);
 

@@ -24,6 +24,10 @@ inline constexpr double reaction_left = 1e-10;
 /// The normal equations for such reactions have the square of the rows' condition number: this many
 /// solutions reduce the error to rounding [-].
 inline constexpr int most_reaction_passes = 4;
+/// Rows of joints that are connected by loops, up to which `realtime` divides loads among them.
+/// They are factored in every tick, which takes up to the cube of their number: half a millisecond
+/// for so many. In larger loops each joint shows the load that its solver gave it [-].
+inline constexpr size_t most_shared_rows = 128;
 
 /// Greatest ratio of moments of inertia of a body at which its joint can be folded: rounding of the
 /// tensor is then small compared with the least moment [-].

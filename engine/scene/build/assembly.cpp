@@ -163,6 +163,8 @@ class Assembly {
         if (share * length <= closed_well * size_) {
           held_.bodies = from;
           least_.look();
+          // The limits held here, by which velocities are projected, are not those of the trial.
+          (void)least_.displacement(way_back(), closed_well * size_);
           return;
         }
         move_from(from, way, share);
