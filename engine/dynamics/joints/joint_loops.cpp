@@ -55,7 +55,7 @@ class LoopFinder {
 
 /// The share of a row in a wrench on B; the rows of a joint are orthogonal where it holds.
 double share_of(const JointRow& row, const Vec3& arm_b, const JointWrench& wrench) {
-  constexpr double unit = 1;
+  const double unit = 1;
   const JointWrench of_row = joint_wrench({&row, 1}, {&unit, 1}, arm_b);
   const double size = of_row.force.squaredNorm() + of_row.torque.squaredNorm();
   return size > 0 ? (of_row.force.dot(wrench.force) + of_row.torque.dot(wrench.torque)) / size : 0;

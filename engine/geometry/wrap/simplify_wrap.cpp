@@ -151,7 +151,7 @@ Contraction Simplifying::contraction(uint32_t u, uint32_t v) const {
   Vec3 to = sum.least_from(middle - middle_) + middle_;
   double error = sum.at(to - middle_);
   // An end that is as good leaves the triangles in their planes, bit by bit.
-  const double as_good = tolerances::same_place * tolerances::same_place * cell_ * cell_;
+  const double as_good = tolerances::same_wrap_place * tolerances::same_wrap_place * cell_ * cell_;
   const double at_a = sum.at(a - middle_), at_b = sum.at(b - middle_);
   if (std::min(at_a, at_b) <= error + as_good) {
     to = at_a <= at_b ? a : b;

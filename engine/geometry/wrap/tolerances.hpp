@@ -62,7 +62,7 @@ inline constexpr int most_passes = 3;
 
 /// Error below which a vertex of the fine surface counts as lying in the planes of the other
 /// [cells]: ten times the rounding of quadrics of walls of a thousand cells.
-inline constexpr double same_place = 3e-4;
+inline constexpr double same_wrap_place = 3e-4;
 
 /// Triangles whose planes differ by less than this [rad] form one flat part; rounding of vertices
 /// that were drawn to one wall is a thousandth of it.
