@@ -7,6 +7,9 @@
 #include "tests/collision/support.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numbers>
+#include <span>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -20,6 +23,26 @@ TriangleMesh container() {
   std::erase_if(out.triangles, [&](const Triangle& t) {
     return std::ranges::all_of(t, [&](uint32_t v) { return out.vertices[v].y() > 0.4; });
   });
+  return out;
+}
+
+/// What has this outline, counter-clockwise in x and y and 0.2 m long in z, with these triangles at
+/// its ends.
+TriangleMesh prism(std::span<const Vec2> outline, std::span<const Triangle> ends) {
+  TriangleMesh out;
+  const auto n = uint32_t(outline.size());
+  for (const double z : {-0.1, 0.1})
+    for (const Vec2& p : outline) out.vertices.emplace_back(p.x(), p.y(), z);
+  for (const Triangle& t : ends) {
+    out.triangles.push_back({t[0], t[2], t[1]});
+    out.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    const uint32_t j = (i + 1) % n;
+    out.triangles.push_back({i, j, j + n});
+    out.triangles.push_back({i, j + n, i + n});
+  }
+  REQUIRE(check_solid(out).faults.empty());
   return out;
 }
 
@@ -125,28 +148,79 @@ TEST_CASE("a clamp about the rim of a sheet touches it with the tips of both jaw
   const std::array<Vec2, corners> outline{
       Vec2(1.8, -0.1),  Vec2(2.2, -0.1), Vec2(2.2, 0.1),   Vec2(1.8, 0.1),    Vec2(1.8, h),
       Vec2(1.85, 0.03), Vec2(2.1, 0.03), Vec2(2.1, -0.03), Vec2(1.85, -0.03), Vec2(1.8, -h)};
-  TriangleMesh clamp;
-  for (const double z : {-0.1, 0.1})
-    for (const Vec2& p : outline) clamp.vertices.emplace_back(p.x(), p.y(), z);
-  for (const Triangle& t :
-       {Triangle{0, 1, 7}, Triangle{0, 7, 8}, Triangle{0, 8, 9}, Triangle{1, 2, 6},
-        Triangle{1, 6, 7}, Triangle{3, 4, 5}, Triangle{2, 3, 5}, Triangle{2, 5, 6}}) {
-    clamp.triangles.push_back({t[0], t[2], t[1]});
-    clamp.triangles.push_back({t[0] + corners, t[1] + corners, t[2] + corners});
-  }
-  for (uint32_t i = 0; i < corners; ++i) {
-    const uint32_t j = (i + 1) % corners;
-    clamp.triangles.push_back({i, j, j + corners});
-    clamp.triangles.push_back({i, j + corners, i + corners});
-  }
-  REQUIRE(check_solid(clamp).faults.empty());
-  const auto grip = mesh(clamp);
+  const auto grip =
+      mesh(prism(outline, std::array{Triangle{0, 1, 7}, Triangle{0, 7, 8}, Triangle{0, 8, 9},
+                                     Triangle{1, 2, 6}, Triangle{1, 6, 7}, Triangle{3, 4, 5},
+                                     Triangle{2, 3, 5}, Triangle{2, 5, 6}}));
   for (const double up : {0.0, 0.002, -0.002}) {
     CAPTURE(up);
     const Upwards found = upwards(*grip, {{0, up, 0}}, *sheet);
     CHECK(found.greatest > 0.5);
     CHECK(found.least < -0.5);
     CHECK(found.nearest == doctest::Approx(h - std::fabs(up)));
+  }
+}
+
+TEST_CASE("a flat jaw of a clamp that comes through the sheet is held on its side of it") {
+  const auto sheet = mesh(make_mesh::terrain(4, 8, [](double, double) { return 0.0; }));
+  // The jaws are .008 m apart; the rim is at x = 2.
+  constexpr double h = 0.004;
+  constexpr uint32_t corners = 8;
+  const std::array<Vec2, corners> outline{Vec2(1.8, -0.1), Vec2(2.2, -0.1), Vec2(2.2, 0.1),
+                                          Vec2(1.8, 0.1),  Vec2(1.8, h),    Vec2(2.1, h),
+                                          Vec2(2.1, -h),   Vec2(1.8, -h)};
+  const auto grip =
+      mesh(prism(outline, std::array{Triangle{0, 1, 6}, Triangle{0, 6, 7}, Triangle{1, 2, 5},
+                                     Triangle{1, 5, 6}, Triangle{2, 3, 5}, Triangle{3, 4, 5}}));
+  for (const double way : {1.0, -1.0}) {
+    CAPTURE(way);
+    std::vector<Manifold> found;
+    ContactQuery query(0.01);
+    ClosestFeatures kept;
+    for (const double through : {-h, 1e-4, 5e-4}) {
+      CAPTURE(through);
+      found.clear();
+      collide(*grip, {{0, way * (h + through), 0}, Quat::Identity()}, *sheet, {}, query, found);
+      double least = 1e9, up = 0;
+      for (const Manifold& m : found)
+        for (int i = 0; i < m.count; ++i)
+          if (m.points[size_t(i)].gap < least) {
+            least = m.points[size_t(i)].gap;
+            up = m.normal.y();
+          }
+      REQUIRE_FALSE(found.empty());
+      if (through > 0) {
+        CHECK(least <= -through + 1e-9);
+        CHECK(up * way > 0.5);
+      } else {
+        CHECK(least == doctest::Approx(-through));
+      }
+      kept = found.front().closest;
+      query.start = &kept;
+    }
+  }
+}
+
+TEST_CASE("what comes to a sheet from beside its rim lies where most of it then is") {
+  const auto sheet = mesh(make_mesh::terrain(4, 8, [](double, double) { return 0.0; }));
+  // Its ridge is at the origin; the rim is at x = 2, in the plane of which the ridge comes.
+  const std::array<Vec2, 3> outline{Vec2(0, 0), Vec2(0, -0.2), Vec2(0.2, -0.2)};
+  const std::array<Triangle, 1> end{Triangle{0, 1, 2}};
+  const auto wedge = mesh(prism(outline, end));
+  for (const double way : {1.0, -1.0}) {
+    CAPTURE(way);
+    // Turned about the x axis, it comes from above.
+    const Quat turn = way > 0 ? Quat::Identity() : axis_angle(Vec3::UnitX(), std::numbers::pi);
+    std::vector<Manifold> found;
+    ContactQuery query(0.01);
+    collide(*wedge, {{2.005, -1e-6 * way, 0}, turn}, *sheet, {}, query, found);
+    REQUIRE_FALSE(found.empty());
+    const ClosestFeatures kept = found.front().closest;
+    query.start = &kept;
+    found.clear();
+    collide(*wedge, {{1.93, 1e-4 * way, 0}, turn}, *sheet, {}, query, found);
+    REQUIRE_FALSE(found.empty());
+    for (const Manifold& m : found) CHECK(m.normal.y() * way > 0.5);
   }
 }
 

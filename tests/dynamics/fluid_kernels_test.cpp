@@ -372,6 +372,74 @@ TEST_CASE("blocks have each particle once, and each of its neighbours in a row")
   CHECK(next == cloud.flows.size());
 }
 
+namespace {
+
+/// Particles with lists that are made up, each the places from its first on.
+struct MadeUpLists {
+  struct List {
+    uint32_t first, count;
+  };
+  SmoothingKernel kernel{FluidKernelKind::cubic_spline, 0.25};
+  FluidPairStore store;
+  std::vector<FluidPairStore::Range> ranges;
+
+  explicit MadeUpLists(const std::vector<List>& lists) {
+    size_t most = 0;
+    for (const List& list : lists) most += list.count;
+    store.clear(kernel, most);
+    for (const List& list : lists) {
+      REQUIRE(list.count % FluidPairStore::batch == 0);
+      ranges.push_back({store.used(), list.count});
+      const FluidPairStore::End end = store.end();
+      for (uint32_t k = 0; k < list.count; ++k)
+        end.others[k] = list.first + k, end.slopes[k] = 1, end.weights[k] = 1;
+      store.keep(list.count);
+    }
+  }
+  bool make(FluidBlocks& blocks, const std::vector<FluidVector>& points) const {
+    return blocks.make(store, 0, ranges, points, kernel.reach());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a block has no more rows than its pairs can name") {
+  FluidBlocks blocks;
+  const uint32_t most = FluidBlocks::most_rows;
+  const std::vector<FluidVector> points(2 * most);
+  CHECK(MadeUpLists({{1, most}}).make(blocks, points));
+  CHECK(blocks.size() == 1);
+  CHECK_FALSE(MadeUpLists({{1, most + 4}}).make(blocks, points));
+  // Each of two has room by itself, and both together have none.
+  const uint32_t count = 40000;
+  REQUIRE(MadeUpLists({{2, count}, {2 + count, count}}).make(blocks, points));
+  REQUIRE(blocks.size() == 2);
+  for (uint32_t b = 0; b < 2; ++b) {
+    const FluidBlock block = blocks[b];
+    CHECK(block.first == b);
+    REQUIRE(block.rows.size() == count);
+    REQUIRE(block.ends.size() == 1);
+    CHECK(block.ends[0] == count);
+    bool all = true;
+    for (uint32_t k = 0; k < count; ++k)
+      all &= block.rows[block.others[k]] == 2 + b * count + k && block.slopes[k] == 1;
+    CHECK(all);
+  }
+}
+
+TEST_CASE("particles that are far apart are in different blocks") {
+  const MadeUpLists made({{0, 4}, {0, 4}});
+  for (const double reaches : {5.0, 7.0}) {
+    CAPTURE(reaches);
+    std::vector<FluidVector> points(8);
+    points[1].y = reaches * made.kernel.reach();
+    FluidBlocks blocks;
+    REQUIRE(made.make(blocks, points));
+    CHECK(blocks.size() == (reaches > 6 ? 2 : 1));
+    CHECK(blocks[0].centre[1] == (reaches > 6 ? 0 : points[1].y / 2));
+  }
+}
+
 TEST_CASE("sums over blocks are those pair by pair, for every instruction set") {
   BlockCloud cloud(1000);
   const std::vector<BlockFlow> given = cloud.flows;

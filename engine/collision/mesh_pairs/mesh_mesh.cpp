@@ -314,9 +314,7 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
     return;
   }
   const double near = std::max(range.margin, range.reach);
-  const auto before = [&](size_t k) {
-    return pair.start ? side_of_feature((*pair.start)[k]) : SurfaceSide::unknown;
-  };
+  const auto before = [&](size_t k) { return pair.start ? (*pair.start)[k] : PolyhedronFeature{}; };
   OpenSides &of_a = scratch.sides_a, &of_b = scratch.sides_b;
   of_a.find(found.A, found.B, !pair.b.is_mesh(), near, before(0), scratch.by_b, scratch.pairs);
   of_b.find(found.B, found.A, !pair.a.is_mesh(), near, before(1), scratch.pairs, scratch.by_b);
@@ -335,8 +333,7 @@ void collide_mesh_mesh(const ShapePair& pair, std::vector<Manifold>& out) {
   if (stop_requested()) return;
   const size_t first = out.size();
   emit_patches(pair, scratch.contacts, out);
-  for (size_t i = first; i < out.size(); ++i)
-    out[i].closest = {feature_of_side(of_a.side()), feature_of_side(of_b.side())};
+  for (size_t i = first; i < out.size(); ++i) out[i].closest = {of_a.kept(), of_b.kept()};
 }
 
 }  // namespace tumble

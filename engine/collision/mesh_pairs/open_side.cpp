@@ -135,11 +135,48 @@ bool OpenSides::behind(uint32_t triangle_of_s, uint32_t triangle_of_other) const
   return at != parts_.end() && at->parts == parts && at->sides == behind_bit;
 }
 
+template <class CentreBehind>
+void OpenSides::settle(bool convex, const PolyhedronFeature& before,
+                       const CentreBehind& centre_behind) {
+  const SurfaceSide all_were = side_of_feature(before);
+  const bool were_both = before.kind == FeatureKind::face &&
+                         std::ranges::binary_search(others_.triangles(), before.index);
+  const uint32_t was_behind = were_both ? others_.part_of(before.index) : no_index;
+  const auto side_before = [&](const Part& part) {
+    if (!were_both) return all_were;
+    return part.parts.b == was_behind ? SurfaceSide::behind : SurfaceSide::front;
+  };
+  bool told = false;
+  found_ = 0;
+  for (Part& part : parts_) {
+    told |= part.sides != 0;
+    const SurfaceSide was = side_before(part);
+    if (part.crosses && !convex && was != SurfaceSide::unknown) {
+      told = true;
+      part.sides = was == SurfaceSide::behind ? behind_bit : front_bit;
+    } else if (part.sides != behind_bit) {
+      const bool is_behind = convex && part.sides != 0 && centre_behind();
+      part.sides = is_behind ? behind_bit : front_bit;
+    }
+    found_ |= part.sides;
+  }
+  if (convex) return;
+  if (mixed()) {
+    const auto at = std::ranges::find(parts_, behind_bit, &Part::sides);
+    kept_ = {FeatureKind::face, others_.triangles()[at->parts.b]};
+  } else if (told) {
+    kept_ = feature_of_side(all_behind() ? SurfaceSide::behind : SurfaceSide::front);
+  } else {
+    // Beside a rim nothing tells, and to be seen from the front there is not to have been in front.
+    kept_ = were_both ? before : feature_of_side(all_were);
+  }
+}
+
 void OpenSides::find(const PlacedSurface& S, const PlacedSurface& other, bool convex, double reach,
-                     SurfaceSide before, const std::vector<TriangleIds>& pairs,
+                     const PolyhedronFeature& before, const std::vector<TriangleIds>& pairs,
                      const std::vector<TriangleIds>& swapped) {
   found_ = front_bit;
-  side_ = SurfaceSide::unknown;
+  kept_ = {};
   parts_.clear();
   if (S.s.closed) return;
   const SeenSurface seen(S, other);
@@ -175,17 +212,7 @@ void OpenSides::find(const PlacedSurface& S, const PlacedSurface& other, bool co
         found.sides |= side == SurfaceSide::front ? front_bit : behind_bit;
     }
   }
-  found_ = 0;
-  for (Part& part : parts_) {
-    if (part.crosses && !convex && before != SurfaceSide::unknown) {
-      part.sides = before == SurfaceSide::behind ? behind_bit : front_bit;
-    } else if (part.sides != behind_bit) {
-      const bool is_behind = convex && part.sides != 0 && seen.centre_behind(of_centre, pairs);
-      part.sides = is_behind ? behind_bit : front_bit;
-    }
-    found_ |= part.sides;
-  }
-  if (!convex && !mixed()) side_ = all_behind() ? SurfaceSide::behind : SurfaceSide::front;
+  settle(convex, before, [&] { return seen.centre_behind(of_centre, pairs); });
 }
 
 }  // namespace tumble

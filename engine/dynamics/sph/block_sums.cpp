@@ -89,22 +89,31 @@ class BlockPoints {
         centre_{block.centre[0], block.centre[1], block.centre[2], 0},
         per_unit_{1 / of.length_unit, 1 / of.length_unit, 1 / of.length_unit, 0} {}
   HWY_INLINE Quad operator()(const SingleVector& at) const {
-    using Tag = hn::CappedTag<double, 4>;
-    using Half = hn::Rebind<float, Tag>;
-    constexpr size_t lanes = hn::MaxLanes(Tag());
-    static_assert(lanes == quad_lanes);
-    const double* centre = &centres_[size_t(at.w)].x;
-    Quad q = Quad::load(at);
-    for (size_t k = 0; k < quad_parts; ++k) {
-      const auto d =
-          hn::Sub(hn::Load(Tag(), centre + k * lanes), hn::Load(Tag(), centre_ + k * lanes));
-      q.parts[k] = hn::Add(
-          q.parts[k], hn::DemoteTo(Half(), hn::Mul(d, hn::Load(Tag(), per_unit_ + k * lanes))));
-    }
-    return q;
+    return Quad::load(at) + way_from<hn::CappedTag<double, 4>>(&centres_[size_t(at.w)].x);
   }
 
  private:
+  /// From this block's centre to another one.
+  template <class Tag>
+  HWY_INLINE Quad way_from(const double* other) const {
+    using Half = hn::Rebind<float, Tag>;
+    constexpr size_t lanes = hn::MaxLanes(Tag());
+    const auto part = [&](size_t k) HWY_ATTR {
+      const auto d = hn::Sub(hn::Load(Tag(), other + k), hn::Load(Tag(), centre_ + k));
+      return hn::DemoteTo(Half(), hn::Mul(d, hn::Load(Tag(), per_unit_ + k)));
+    };
+    if constexpr (lanes == quad_lanes) {
+      Quad way;
+      for (size_t k = 0; k < quad_parts; ++k) way.parts[k] = part(k * lanes);
+      return way;
+    } else {
+      // Vectors of 128 bits hold two numbers in double precision and four in single.
+      SingleVector way;
+      for (size_t k = 0; k < 4; k += lanes) hn::StoreU(part(k), Half(), &way.x + k);
+      return Quad::load(way);
+    }
+  }
+
   const FluidVector* centres_;
   HWY_ALIGN double centre_[4];
   HWY_ALIGN double per_unit_[4];
