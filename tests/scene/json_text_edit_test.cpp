@@ -85,3 +85,9 @@ TEST_CASE("a member goes with its line and its comma") {
   CHECK(left.find("// behind") != std::string::npos);
   CHECK_FALSE(JsonTextEdit(scene).remove(path("bodies.cone")));
 }
+
+TEST_CASE("a key is renamed to any text, and the text stays JSON") {
+  JsonTextEdit edit(R"({"a": 1})");
+  REQUIRE(edit.rename(path("a"), "b\"c"));
+  CHECK(edit.text() == R"({"b\"c": 1})");
+}

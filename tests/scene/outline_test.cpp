@@ -258,6 +258,52 @@ TEST_CASE("outline: what one types becomes the JSON of its kind") {
   CHECK(shown_value("[1, 2]") == "[1, 2]");
 }
 
+TEST_CASE("outline: what stands bare for an object is typed as the key that it stands for") {
+  const std::string text = scene_with(R"("parameters": { "gap": 2 },
+    "materials": { "slick": "steel" },
+    "particles": { "dust": { "gas": 1, "at": [[0, 0, 0]] } },
+    "emitters": { "jet": { "particles": "dust", "rate": 1, "life": 1 } })");
+  const JsonNode scene = tree_of_scene(text);
+  const auto typed = [&](const ScenePath& path, const char* words) {
+    const auto place = place_of(scene, path);
+    REQUIRE_MESSAGE(place.has_value(), text_of(path));
+    const auto value = typed_value(place->what, words);
+    REQUIRE_MESSAGE(value.ok(), test::why_not(value));
+    return *value;
+  };
+  const ScenePath gap = ScenePath{} / "parameters" / "gap";
+  CHECK(typed(gap, "3") == "3");
+  CHECK(typed(gap, "2*pi") == "\"= 2*pi\"");
+  CHECK(typed(ScenePath{} / "emitters" / "jet" / "life", "0.5") == "0.5");
+  CHECK(typed(ScenePath{} / "emitters" / "jet" / "life", "$gap") == "\"$gap\"");
+  CHECK(typed(ScenePath{} / "materials" / "slick", "ice") == "\"ice\"");
+  const auto wider = with_value(text, gap, typed(gap, "3"));
+  REQUIRE(wider.ok());
+  CHECK(plain(*wider)["parameters"]["gap"] == 3);
+  CHECK(plain(*with_value(text, gap / "max", "4"))["parameters"]["gap"] ==
+        Json({{"value", 2}, {"max", 4}}));
+}
+
+TEST_CASE("outline: what stands without brackets gets them as it is written") {
+  const std::string one = R"({
+      // round
+      "type": "sphere", "radius": 1.50
+    })";
+  const std::string text = scene_with(R"("bodies": { "a": { "shapes": )" + one + " } }");
+  const auto two = with_added(text, at_index(ScenePath{} / "bodies" / "a" / "shapes", 1));
+  REQUIRE_MESSAGE(two.ok(), test::why_not(two));
+  CHECK(faults_of(*two) == "");
+  CHECK(two->find("\"shapes\": [" + one + ", ") != std::string::npos);
+}
+
+TEST_CASE("outline: the one item of a list that must be there stays") {
+  const std::string text =
+      scene_with(R"("lesson": { "steps": { "title": "One", "text": ["..."] } })");
+  REQUIRE(place_of(tree_of_scene(text), ScenePath{} / "lesson" / "steps")->what.required);
+  std::vector<TakenAlong> along;
+  CHECK_FALSE(without(text, at_index(ScenePath{} / "lesson" / "steps", 0), along).ok());
+}
+
 TEST_CASE("outline: a number becomes one that the scene declares, and means the same") {
   const std::string text = scene_with(
       R"("bodies": { "a": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [1, 2, 3] } })");
@@ -321,4 +367,17 @@ TEST_CASE("leaving out: a material, a mesh and a camera take along what cannot d
   const Json camera = left("cameras", "main", told);
   CHECK_FALSE(camera["lesson"]["steps"][0].contains("camera"));
   CHECK(told == std::vector<std::string>{"steps[0].camera of lesson"});
+}
+
+TEST_CASE("leaving out: a material of the scene gives its name back to the one of Tumble") {
+  const std::string text =
+      scene_with(R"("materials": { "steel": { "like": "steel", "friction": 0.1 } },
+    "bodies": { "a": { "shape": { "type": "sphere", "radius": 1 }, "material": "steel" } })");
+  REQUIRE(faults_of(text) == "");
+  std::vector<TakenAlong> along;
+  const auto left = without(text, ScenePath{} / "materials" / "steel", along);
+  REQUIRE(left.ok());
+  CHECK(along.empty());
+  CHECK(faults_of(*left) == "");
+  CHECK(plain(*left)["bodies"]["a"]["material"] == "steel");
 }

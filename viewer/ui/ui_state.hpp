@@ -289,7 +289,9 @@ struct RemovePart {
   PartDescription part;
 };
 /// Throws away changes of the description that do not make a scene yet.
-struct LeaveDraft {};
+struct LeaveDraft {
+  bool newest_only = false;
+};
 /// World B beside this one from now on, as it is chosen here; also where there is one already.
 struct Compare {
   WorldChoice choice;

@@ -70,8 +70,7 @@ std::optional<Place> key_of(const Place& object, const std::string& key) {
     out.node = object.node;
     out.in_text = object.in_text;
   } else if (bare && !type.shorthand_key.empty()) {
-    out.first = {object.in_text,
-                 fmt::format("{{ \"{}\": {} }}", type.shorthand_key, one_line(*object.node))};
+    out.first = {object.in_text, fmt::format("{{ \"{}\": ", type.shorthand_key), " }"};
   } else if (object.node) {
     out.node = object.node->find(key);
   }
@@ -94,7 +93,7 @@ std::optional<Place> item_at(const Place& list, size_t index) {
       out.node = node;
       out.in_text = list.in_text;
     } else {
-      out.first = {list.in_text, "[" + one_line(*node) + "]"};
+      out.first = {list.in_text, "[", "]"};
     }
   }
   return out;

@@ -31,8 +31,13 @@ struct Place {
   bool named = false;
   /// It is one of a list or of several values.
   bool numbered = false;
-  /// What has to be written otherwise before something can be put here, and how.
-  std::optional<std::pair<ScenePath, std::string>> first;
+  /// What is written in short on the way, and what has to stand around it before something can be
+  /// put here.
+  struct WrittenOut {
+    ScenePath in_text;
+    std::string before, after;
+  };
+  std::optional<WrittenOut> first;
 };
 
 /// Nothing where the declarations know no such place.

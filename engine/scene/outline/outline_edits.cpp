@@ -1,5 +1,6 @@
 #include "engine/scene/outline/outline_edits.hpp"
 
+#include "engine/scene/description/material.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/saving/definition_json.hpp"
 #include "engine/scene/visitors/json_text.hpp"
@@ -116,7 +117,11 @@ Result<std::string> put(std::string text, const ScenePath& path, std::string_vie
     if (!place) return outline_refusal(text_of(path) + ": there is no such place in a scene");
     JsonTextEdit edit(std::move(text));
     if (place->first) {
-      if (!edit.set(place->first->first, place->first->second))
+      // As it is written, with its comments.
+      const auto& [short_one, before, after] = *place->first;
+      const auto said = edit.value(short_one);
+      const std::string whole = said ? fmt::format("{}{}{}", before, *said, after) : std::string();
+      if (!said || !edit.set(short_one, whole))
         return outline_refusal(text_of(path) + ": cannot be written out");
       text = edit.text();
       continue;
@@ -174,6 +179,13 @@ Result<std::string> after_choice(std::string text, const ScenePath& object) {
   return edit.text();
 }
 
+/// What a name still means after the scene has left out its own thing of that name.
+bool comes_with_tumble(const std::string& list, const std::string& name) {
+  return list == "materials" && std::ranges::any_of(built_in_materials(), [&](const auto& known) {
+           return known.first == name;
+         });
+}
+
 }  // namespace
 
 Result<std::string> with_value(const std::string& text, const ScenePath& path,
@@ -216,11 +228,15 @@ Result<std::string> without(const std::string& text, const ScenePath& path,
   if (place->numbered) {
     // The last of several takes the key along, which would say nothing.
     const auto several = place_of(*tree, outer_path(path));
-    const bool last = !several->node->is(JsonNode::Kind::array) || several->node->items.size() == 1;
+    const bool alone = !several->node->is(JsonNode::Kind::array);
+    // Without brackets the text of the item is that of the list.
+    if (alone && several->what.required) return outline_refusal(text_of(path) + " must be there");
+    const bool last = alone || several->node->items.size() == 1;
     if (last && !several->what.required) gone = several->in_text;
   }
   if (!edit.remove(gone)) return outline_refusal(text_of(path) + ": it cannot be left out");
-  if (place->named && path.size() == 2) along = drop_dependents(edit, path[0].key, path[1].key);
+  if (place->named && path.size() == 2 && !comes_with_tumble(path[0].key, path[1].key))
+    along = drop_dependents(edit, path[0].key, path[1].key);
   return edit.text();
 }
 
@@ -251,6 +267,13 @@ Result<Declared> with_parameter(const std::string& text, const ScenePath& path) 
 
 Result<std::string> typed_value(const Member& what, std::string_view typed) {
   typed = trimmed(typed);
+  // A bare value for an object is one of the key that it stands for.
+  if (what.kind == MemberKind::object && what.type) {
+    const auto members = members_of(*what.type, nullptr);
+    const auto meant = std::ranges::find(members, what.type->shorthand_key, &Member::name);
+    if (meant != members.end() && meant->kind != MemberKind::object)
+      return typed_value(*meant, typed);
+  }
   const bool text = what.kind == MemberKind::text || what.kind == MemberKind::choice ||
                     what.kind == MemberKind::object || what.kind == MemberKind::colour;
   if (text && !(what.kind == MemberKind::colour && typed.starts_with('[')))

@@ -189,8 +189,7 @@ bool JsonTextEdit::rename(const Path& path, std::string_view key) {
   if (!around || text_[around->begin] != '{') return false;
   for (const Member& member : members(*around)) {
     if (member.name != path.back().key) continue;
-    text_.replace(member.key.begin, member.key.end - member.key.begin,
-                  "\"" + std::string(key) + "\"");
+    text_.replace(member.key.begin, member.key.end - member.key.begin, json_quoted(key));
     return true;
   }
   return false;

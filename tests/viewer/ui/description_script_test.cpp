@@ -235,3 +235,61 @@ TEST_CASE("description: parts and settings change in the running world, expressi
   CHECK(b.saved().find("\"= 1 + 1\"") != std::string::npos);
   check_no_faults(*b.device);
 }
+
+TEST_CASE("description: a parameter is typed, written out and renamed, and its slider follows") {
+  Described b(two_bodies + R"(,
+  "parameters": { "gap": 2, "size": { "value": 0.5, "min": 0.1, "max": 4 } })");
+  b.go("parameters");
+  b.type_in("gap", "3");
+  CHECK_FALSE(b.faulty());
+  CHECK(b.saved().find(R"("gap": 3,)") != std::string::npos);
+  b.play("click description.gap.more\nwait 2");
+  REQUIRE(b.rig.app->locate("description.name").has_value());
+  b.add("max");
+  CHECK(b.saved().find(R"("gap": { "value": 3, "max": )") != std::string::npos);
+  // What is typed afterwards holds against what was chosen by the slider.
+  b.rig.app->ask(ChangeParameter{"size", 1});
+  b.play("wait 4");
+  REQUIRE(b.rig.wished == std::vector<std::string>{"parameters.size=1"});
+  b.go("parameters.size");
+  b.type_in("value", "2");
+  CHECK(b.rig.wished.empty());
+  // What was chosen follows a new name.
+  b.rig.app->ask(ChangeParameter{"size", 3});
+  b.play("wait 4");
+  b.type_in("name", "width");
+  CHECK(b.rig.wished == std::vector<std::string>{"parameters.width=3"});
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: a draft is taken back before what was done earlier, and after what later") {
+  Described b(two_bodies);
+  b.go("bodies.ball.shape");
+  b.type_in("radius", "-1");
+  REQUIRE(b.faulty());
+  b.play("click " + b.at({0, 2, 0}) + "\nwait 3");
+  REQUIRE(b.rig.app->selected() == b.world().find_body("ball"));
+  b.play("key Del\nwait 4");
+  REQUIRE(b.world().find_body("ball").is_null());
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK_FALSE(b.world().find_body("ball").is_null());
+  CHECK(b.faulty());
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK_FALSE(b.faulty());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: another scene is not opened over a draft without being asked for") {
+  Described b(two_bodies);
+  b.go("bodies.ball.shape");
+  b.type_in("radius", "-1");
+  b.rig.app->open(b.file);
+  b.play("wait 4");
+  REQUIRE(b.rig.app->ui().find("question.stay"));
+  b.play("click question.stay\nwait 4");
+  CHECK(b.faulty());
+  b.rig.app->open(b.file);
+  b.play("wait 4\nclick question.leave\nwait 4");
+  CHECK_FALSE(b.faulty());
+  check_no_faults(*b.device);
+}

@@ -55,7 +55,10 @@ Result<DescriptionDesk::Changed> renamed_place(const std::string& text,
     out.text = *std::move(done);
     return out;
   }
-  // What stands deeper is named by nothing else.
+  // What stands deeper is named by nothing else in the file, and may be called as the robot's own
+  // file calls it.
+  if (edit.value.empty())
+    return Error{ErrorCode::invalid_argument, "a name has one letter at least", {}, {}};
   const auto tree = parsed(text);
   const auto place = tree ? place_of(*tree, edit.path) : std::nullopt;
   JsonTextEdit change(text);
@@ -141,7 +144,9 @@ Result<DescriptionDesk::Changed> DescriptionDesk::with(const std::string& text,
   return after;
 }
 
-void DescriptionDesk::keep(EditDescription edit, std::vector<std::string> faults, bool opening) {
+void DescriptionDesk::keep(EditDescription edit, std::vector<std::string> faults, bool opening,
+                           size_t deeds) {
+  deeds_then_.push_back(deeds);
   view_.draft.push_back(deed_of(edit));
   draft_.push_back(std::move(edit));
   view_.faults = std::move(faults);
@@ -155,6 +160,7 @@ void DescriptionDesk::refuse(std::vector<std::string> faults) {
 
 std::string DescriptionDesk::take_back(const std::string& text, const std::filesystem::path& file) {
   draft_.pop_back();
+  deeds_then_.pop_back();
   std::string what = std::move(view_.draft.back());
   view_.draft.pop_back();
   view_.faults.clear();
@@ -168,6 +174,7 @@ std::string DescriptionDesk::take_back(const std::string& text, const std::files
 
 void DescriptionDesk::leave_draft() {
   draft_.clear();
+  deeds_then_.clear();
   view_.draft.clear();
   view_.faults.clear();
   view_.opening = false;

@@ -121,6 +121,7 @@ bool SecondWorld::behind(const World& a) const {
 
 void SecondWorld::follow(const World& a, double seconds) {
   if (!world_) return;
+  if (failed_) return see(a);  // and is told nothing more
   using Clock = std::chrono::steady_clock;
   const auto since = Clock::now();
   const SimdTarget target(choice_.simd);
@@ -146,6 +147,7 @@ void SecondWorld::see(const World& a) {
   const Divergence d = divergence(*frame_a, *frame_b);
   const double apart = double(frame_a->tick - begun_a_) * a.settings().tick.tick() -
                        double(frame_b->tick - begun_b_) * world_->settings().tick.tick();
+  const bool catches_up = behind(a);
   std::lock_guard lock(mutex_);
   if (!shown_.to) {
     shown_.from = shown_.to = frame_b;
@@ -156,7 +158,8 @@ void SecondWorld::see(const World& a) {
   } else {
     shown_.to = frame_b;
   }
-  shown_.behind = std::max(0.0, apart);
+  // With a longer tick B stands at its last one before A's moment, and is not on its way.
+  shown_.behind = catches_up ? std::max(0.0, apart) : 0;
   // Only at moments that both have.
   if (std::abs(apart) > 1e-9) return;
   shown_.now = d;
@@ -178,6 +181,7 @@ void SecondWorld::fail(const std::string& why) {
   failed_ = true;
   std::lock_guard lock(mutex_);
   shown_.fault = why;
+  shown_.behind = 0;
 }
 
 }  // namespace tumble

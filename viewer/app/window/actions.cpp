@@ -371,8 +371,8 @@ void Application::apply(const UiRequest& request) {
     second_.end(session());
   } else if (const auto* described = std::get_if<EditDescription>(&request)) {
     edit_description(*described);
-  } else if (std::holds_alternative<LeaveDraft>(request)) {
-    description_.leave_draft();
+  } else if (const auto* left = std::get_if<LeaveDraft>(&request)) {
+    left->newest_only ? take_back_draft() : description_.leave_draft();
   } else if (const auto* part = std::get_if<EditPart>(&request)) {
     edit_part(*part);
   } else if (const auto* part_gone = std::get_if<RemovePart>(&request)) {

@@ -168,6 +168,7 @@ class Application {
   void offer_unnamed_work();
   bool in_gesture() const;
   void take_back();
+  void take_back_draft();
   void do_again();
   void delete_selected();
   void duplicate_selected();
@@ -311,6 +312,7 @@ class Application {
   std::optional<std::pair<std::string, std::string>> renaming_;  ///< a body, while that is opened
   std::vector<std::string> described_along_;  ///< went with what was left out of the description
   bool described_camera_ = false;             ///< a camera was changed, which is to be seen
+  bool describing_ = false;                   ///< what opens next is a changed description
   std::optional<FolderView> browsed_;         ///< none: the list of scenes is shown
   bool quit_ = false, full_screen_ = false;
 };

@@ -25,6 +25,25 @@ bool says_same(const std::string& text, const std::filesystem::path& file, const
   return saved && saved->left_out.empty() && plain(saved->text) == plain(wanted);
 }
 
+/// A number that was chosen here ("parameters.gap=3") would go on hiding the one that the file says
+/// now, and follows what it is a number of to another name. Of a parameter that is written out the
+/// choice is its value.
+void keep_up_choices(std::vector<std::string>& chosen, const EditDescription& edit) {
+  const std::string at = text_of(edit.path);
+  if (edit.how == EditDescription::How::rename) {
+    const std::string to = text_of(outer_path(edit.path) / edit.value);
+    for (std::string& one : chosen)
+      if (one.starts_with(at) && one.find_first_of("=.[", at.size()) == at.size())
+        one.replace(0, at.size(), to);
+    return;
+  }
+  std::erase_if(chosen, [&](const std::string& one) {
+    const std::string path = one.substr(0, one.find('='));
+    return path == at || path + ".value" == at || path == at + ".value" ||
+           (edit.how == EditDescription::How::remove && path.starts_with(at + "."));
+  });
+}
+
 }  // namespace
 
 std::string Application::described_text() {
@@ -45,13 +64,13 @@ void Application::edit_description(const EditDescription& edit) {
   const bool alone = !description_.has_draft();
   if (done->text == now && alone) return;
   ui_.described = done->place;
-  if (!done->faults.empty()) return description_.keep(edit, std::move(done->faults), false);
+  const size_t deeds = deeds_.edits().deeds().size();
+  if (!done->faults.empty()) return description_.keep(edit, std::move(done->faults), false, deeds);
   const std::string what = deed_of(edit);
   if (alone && describe_live(now, done->text, edit.path, what)) return;
-  // A number that was chosen here would go on hiding the one that the file says.
-  std::erase_if(after.overrides, [&](const std::string& chosen) {
-    return chosen.starts_with(text_of(edit.path) + "=");
-  });
+  for (const EditDescription& earlier : description_.draft())
+    keep_up_choices(after.overrides, earlier);
+  keep_up_choices(after.overrides, edit);
   after.text = std::move(done->text);
   described_camera_ = !edit.path.empty() && edit.path[0].key == "cameras";
   if (edit.how == EditDescription::How::rename && edit.path.size() == 2 &&
@@ -59,7 +78,8 @@ void Application::edit_description(const EditDescription& edit) {
     renaming_ = {edit.path[1].key, edit.value};
   described_along_.clear();
   for (const TakenAlong& one : done->along) described_along_.push_back(one.words());
-  description_.keep(edit, {}, true);
+  description_.keep(edit, {}, true, deeds);
+  describing_ = true;
   choose(std::move(after), what, world_.frame().tick);
 }
 

@@ -41,10 +41,7 @@ bool Application::in_gesture() const {
 void Application::take_back() {
   end_drag();
   if (description_.opening()) return;  // it is known soon whether that makes a scene
-  if (description_.has_draft()) {
-    const std::string what = description_.take_back(described_text(), scene_.file.path);
-    return ui_.toast(ToastKind::info, "Taken back: " + what);
-  }
+  if (description_.newer_than(deeds_.edits().deeds().size())) return take_back_draft();
   tools_.parts.note();
   const auto back = deeds_.take_back(session(), selection_.all());
   if (!back) {
@@ -52,7 +49,17 @@ void Application::take_back() {
       ui_.toast(ToastKind::info, "There is nothing to take back");
     return;
   }
+  // The trial is of a scene that is no longer the one shown: what was deleted is back.
+  (void)tools_.refusal.take_left();
+  removal_trial_.reset();
   ui_.toast(ToastKind::info, "Taken back: " + back->what);
+}
+
+/// The newest change of the description that makes no scene yet.
+void Application::take_back_draft() {
+  if (!description_.has_draft() || description_.opening()) return;
+  const std::string what = description_.take_back(described_text(), scene_.file.path);
+  ui_.toast(ToastKind::info, "Taken back: " + what);
 }
 
 void Application::do_again() {

@@ -34,10 +34,22 @@ void Application::browse(const std::string& folder) {
 }
 
 void Application::open(SceneWish wish) {
-  open_for({}, std::move(wish));
+  if (!description_.has_draft()) return open_for({}, std::move(wish));
+  question_.ask({{"Changes of this scene are not in effect yet",
+                  {"They are not kept when another scene is opened."},
+                  {{"leave", "Open without them"}, {"stay", "Stay"}}},
+                 {[this, wish = std::move(wish)] {
+                    description_.leave_draft();
+                    open_for({}, wish);
+                  },
+                  [] {}}},
+                ui_);
 }
 
 void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
+  if (!std::exchange(describing_, false) && description_.opening())
+    description_.refuse(
+        {"Something else was opened meanwhile: change it once more, or take it back."});
   if (options_.own_thread) return opening_.start(options_.open, std::move(wish), std::move(cause));
   auto scene = options_.open(wish);
   finish_opening({std::move(wish), std::move(scene), std::move(cause)});
@@ -94,6 +106,8 @@ void Application::finish_opening(SceneOpening::Opened done) {
   auto& choice = cause.choice;
   if (!opened) {
     finish_description(opened.error());
+    renaming_.reset();
+    described_camera_ = false;
     const std::string file = std::filesystem::path(asked.scene).filename().string();
     return ui_.toast(ToastKind::error, "'" + file + "' cannot be opened",
                      lines_of(opened.error().text()));
@@ -113,11 +127,14 @@ void Application::finish_opening(SceneOpening::Opened done) {
                                                       : deeds_.unsaved().free_name();
   }
   const LookedAt looked_at = same ? looked_at_in(*opened) : LookedAt{};
-  // What does not act on bodies (cameras, light, words) leaves the world as it is, at this moment.
-  const bool same_world =
-      same && choice && opened->world_hash == scene_.world_hash && opened->world_hash != 0;
+  // What does not act on bodies (cameras, light, words) leaves the world as it is, at this moment;
+  // but what judges the run has to see all of it.
+  const bool judged = opened->assertions || opened->lesson;
+  const bool same_world = same && choice && !judged && opened->world_hash == scene_.world_hash &&
+                          opened->world_hash != 0;
   const auto moment = same_world ? session().keep() : nullptr;
   if (!same) description_.forget();
+  description_.count_deeds_anew();
   renaming_.reset();
   const SceneCamera camera = camera_;
   show(std::move(*opened), same);
@@ -229,12 +246,18 @@ void Application::offer_kept_work() {
 void Application::ask_to_quit() {
   // Includes the newest change.
   deeds_.finish(session(), options_.own_thread);
-  if (!deeds_.unsaved().any() || question_.quits()) {
+  const bool draft = description_.has_draft();
+  if ((!deeds_.unsaved().any() && !draft) || question_.quits()) {
     quit_ = true;
     return;
   }
+  std::vector<std::string> lines;
+  if (deeds_.unsaved().any())
+    lines.push_back("It is kept until this scene is opened again, and offered then.");
+  if (draft)
+    lines.push_back("Changes of the scene that are not in effect yet are neither saved nor kept.");
   question_.ask({{"What was changed in this scene is not saved",
-                  {"It is kept until this scene is opened again, and offered then."},
+                  std::move(lines),
                   {{"save", "Save ..."}, {"quit", "Quit"}, {"stay", "Stay"}}},
                  {[this] { save_scene(); }, [this] { quit_ = true; }, [] {}},
                  true},

@@ -64,6 +64,7 @@ class DescriptionForm {
   void names(const OutlineKey& key, const std::vector<std::string>& all);
   void swatch(const OutlineKey& key);
   void parts(const OutlineKey& key);
+  void into(const OutlineKey& key);
   void remove(const OutlineKey& key);
   void declare(const OutlineKey& key);
 
@@ -102,7 +103,6 @@ void DescriptionForm::label(const OutlineKey& key) {
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
   ImGui::TextUnformatted(shortened(text, width * key_share - 6).c_str());
   ImGui::PopStyleColor();
-  tooltip_with_key(context_, help_of(key.what), {});
   ImGui::SameLine(x + width * key_share);
 }
 
@@ -195,7 +195,7 @@ void DescriptionForm::parts(const OutlineKey& key) {
   if (ImGui::Selectable(("##" + mark).c_str(), false, 0, ImVec2(width, ImGui::GetFrameHeight())))
     context_.state.described = below(outline_.path, key.what);
   context_.host.mark(mark);
-  tooltip_with_key(context_, key.what.doc, {});
+  tooltip_with_key(context_, help_of(key.what), {});
   const ImVec2 next = ImGui::GetCursorPos();
   ImGui::SetCursorPos(at);
   label(key);
@@ -203,6 +203,17 @@ void DescriptionForm::parts(const OutlineKey& key) {
   ImGui::SameLine(at.x + width);
   remove(key);
   ImGui::SetCursorPos(next);
+}
+
+/// Behind what is written bare: leads to its name and its other keys.
+void DescriptionForm::into(const OutlineKey& key) {
+  ImGui::SameLine(0, 2);
+  ImGui::PushID(description_mark(key.what).c_str());
+  if (ImGui::ArrowButton("more", ImGuiDir_Right))
+    context_.state.described = below(outline_.path, key.what);
+  ImGui::PopID();
+  context_.host.mark(description_mark(key.what) + ".more");
+  tooltip_with_key(context_, "its name and what else can be said of it", {});
 }
 
 void DescriptionForm::remove(const OutlineKey& key) {
@@ -241,6 +252,9 @@ void DescriptionForm::row(const OutlineKey& key) {
     return remove(key);
   }
   label(key);
+  tooltip_with_key(context_, help_of(key.what), {});
+  const bool bare = what.kind == MemberKind::object;
+  if (bare) width -= ImGui::GetFrameHeight() + 2;
   const std::vector<std::string> all =
       what.kind == MemberKind::colour ? palette_names() : outline_.names_of(what.refers_to);
   const bool number = what.is_number() && !key.text.starts_with('"') &&
@@ -264,6 +278,7 @@ void DescriptionForm::row(const OutlineKey& key) {
   } else {
     scalar(key, width);
   }
+  if (bare) into(key);
   ImGui::SameLine(0, 2);
   remove(key);
 }
@@ -344,9 +359,9 @@ void draw_draft(PanelContext& context, const DescriptionView& view) {
   wrapped("Not a scene yet: the world is as before until this is mended.", palette::yellow);
   for (const std::string& fault : view.faults) wrapped(fault, palette::red);
   context.host.mark("description.faults");
-  if (ImGui::Button("Take back")) context.ask(Action::undo);
+  if (ImGui::Button("Take back")) context.ask(LeaveDraft{true});
   context.host.mark("description.draft.undo");
-  tooltip_with_key(context, view.draft.back(), shortcut_of(Action::undo));
+  tooltip_with_key(context, view.draft.back(), {});
   ImGui::SameLine();
   if (ImGui::Button("Throw all of it away")) context.ask(LeaveDraft{});
   context.host.mark("description.draft.leave");
