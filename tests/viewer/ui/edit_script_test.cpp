@@ -189,7 +189,7 @@ TEST_CASE("what is taken back leaves a body selected that still stands") {
 TEST_CASE("values of a body are changed in the panel, with one deed for each pull") {
   const auto device = make_null_device();
   Rig rig(*device);
-  rig.picture = {1200, 900, 1};
+  rig.picture = {1200, 1000, 1};
   rig.play("wait 5\nkey Space\nclick body:box\nwait 3\nclick inspector.group.1\nwait 3");
   const auto def = [&] {
     World& world = rig.app->session().world();

@@ -53,6 +53,7 @@ TEST_CASE("keys do what users were promised") {
                                                   {"J", Action::toggle_assertions},
                                                   {"L", Action::toggle_lesson},
                                                   {"I", Action::toggle_parts},
+                                                  {"Shift+I", Action::toggle_description},
                                                   {"PageDown", Action::lesson_next},
                                                   {"PageUp", Action::lesson_back},
                                                   {"Ctrl+S", Action::save_scene},
