@@ -269,7 +269,7 @@ TEST_CASE("curved shapes meet the bounds of GJK, and seldom need double-double a
     CHECK(std::abs(apart - g.distance) <= 1e-11);
   }
   MESSAGE(precise << " of " << count << " precise");
-  CHECK(precise * 20 <= count);
+  CHECK(precise * 10 <= count);  // six of ten where no flat simplex was reduced in double precision
 }
 
 TEST_CASE("GJK and EPA with hostile input return") {
