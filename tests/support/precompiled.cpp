@@ -1,0 +1,1 @@
+// Nothing but the owner of a precompiled header: see tests/CMakeLists.txt.
