@@ -43,6 +43,11 @@ class RealtimeSolver {
   RealtimeSolver(RealtimeSolver&&) noexcept;
   RealtimeSolver& operator=(RealtimeSolver&&) noexcept;
 
+  /// To be called before the first step of a tick: Joint::impulse and motor_impulse are sums over
+  /// the steps since then. Those of a joint that no step solves, because its bodies sleep, stay
+  /// what they were in the last tick that solved it.
+  void begin_tick();
+
   /// Moves every awake dynamic body of `islands` and every kinematic body. Writes back poses and
   /// velocities, the impulses of contacts, of the joints that the islands name and of their
   /// couplings, and those of `springs`, whose links were used in building the islands. `h` [s] may
@@ -63,7 +68,7 @@ class RealtimeSolver {
 
   void add_memory(MemoryUse& use) const;
 
-  /// Scratch memory only: no state outlives a step.
+  /// Scratch memory only: no state outlives a tick.
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;

@@ -178,6 +178,7 @@ Status RealtimeTick::by_groups(TickParts& parts) {
 }
 
 Status RealtimeTick::run() {
+  solver.begin_tick();
   if (const Status found = find_pairs(h); !found) return found;
   TickParts parts;
   parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h, close, gravity.norm()},
