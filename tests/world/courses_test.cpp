@@ -8,6 +8,7 @@
 #include "tests/support/test_world.hpp"
 #include "tests/support/why_not.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -281,7 +282,6 @@ TEST_CASE("a course that accelerates breaks a joint that is too weak for it") {
       INFO(stepper, " ", strength);
       JointDef def = of_kind(JointKind::rigid);
       def.break_force = strength;
-      // Under realtime the first tick has half of the acceleration.
       Carrier c(weightless(stepper), formula("10*t^2"), def);
       c.run(1);
       CHECK(c.world->frame()->stats.joints == (strength > 20 ? 1 : 0));
@@ -302,6 +302,29 @@ TEST_CASE("event: friction of a joint is bounded on a body that shakes") {
       const double angle = c.world->frame()->joints->front().coordinates[0].value;
       CHECK(std::fabs(angle - expected[size_t(second)]) < 2e-4);
     }
+  }
+}
+
+TEST_CASE("realtime: a pendulum with friction on a body that shakes, to second order") {
+  const auto error = [](double friction, int hz) {
+    WorldSettings s;
+    s.tick = {hz, 1};
+    JointDef def = of_kind(JointKind::revolute);
+    def.drives[0].friction = friction;
+    Carrier c(s, formula("0.2*sin(3*t)"), def, {0, -0.5, 0});
+    double most = 0;
+    for (const double expected : shaken_pendulum(0.2, 3, friction, 3)) {
+      c.run(1);
+      const double angle = c.world->frame()->joints->front().coordinates[0].value;
+      most = std::max(most, std::fabs(angle - expected));
+    }
+    return most;
+  };
+  for (const double friction : {0.001, 0.05}) {
+    const double coarse = error(friction, 60), fine = error(friction, 120);
+    INFO(friction, " ", coarse, " ", fine);
+    CHECK(coarse < 2e-4);
+    CHECK(fine < 0.35 * coarse);
   }
 }
 

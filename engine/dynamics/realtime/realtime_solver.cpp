@@ -299,12 +299,14 @@ Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, Con
                                                 double h, const RealtimeSettings& settings,
                                                 Crew& crew, std::span<Joint> joints,
                                                 std::span<JointCoupling> couplings, double passed,
-                                                std::span<SolvedSpring> springs) {
+                                                std::span<SolvedSpring> springs,
+                                                std::span<const CourseMotion> courses) {
   Scratch& s = *scratch_;
   s.joint_pushes.resize(joints.size());
   s.begun.resize(joints.size(), 0);
   const SolverContext context{bodies, contacts.contacts(), gravity,   h,      &settings,
-                              joints, s.joint_pushes,      couplings, passed, springs};
+                              joints, s.joint_pushes,      couplings, passed, springs,
+                              courses};
   begin_joints(context, islands, s.begun);
   s.plans.make(context, islands, crew);
   s.lay_out(context, islands);
