@@ -64,16 +64,19 @@ void share_loads(WorldState& s, bool events) {
   }
 }
 
-/// Under the event stepper, which knows impulses by row: what the joint did over the tick, along
-/// the directions of its rows at the end.
-void sum_rows(const WorldState& s, Joint& joint, double h) {
-  if (time_stepped(s, joint)) return;
-  JointWrench load = wrench_of_rows(joint, joint_sides(joint, s.bodies.bodies));
-  const auto slot = uint32_t(&joint - s.joints.joints.data());
-  for (size_t k = 0; joint.coupled && k < most_coordinates; ++k)
-    if (joint.is_coupled(k))
-      add_coordinate_wrench(joint, k, s.joints.coupling_force(slot, k), s.bodies.bodies, load);
-  joint.impulse = {h * load.force, h * load.torque};
+/// Under the event stepper, which knows impulses by row: what joints did over the tick, along the
+/// directions of their rows at the end.
+void sum_rows(WorldState& s, double h) {
+  const auto of_couplings = s.joints.coupling_forces();
+  for (uint32_t slot = 0; slot < s.joints.ids.capacity(); ++slot) {
+    Joint& joint = s.joints.joints[slot];
+    if (!s.joints.ids.alive(slot) || time_stepped(s, joint)) continue;
+    JointWrench load = wrench_of_rows(joint, joint_sides(joint, s.bodies.bodies));
+    for (size_t k = 0; joint.coupled && k < most_coordinates; ++k)
+      if (joint.is_coupled(k))
+        add_coordinate_wrench(joint, k, of_couplings[slot][k], s.bodies.bodies, load);
+    joint.impulse = {h * load.force, h * load.torque};
+  }
 }
 
 Status break_joint(WorldState& s, JointId id, const JointWrench& load) {
@@ -95,11 +98,9 @@ Status break_joint(WorldState& s, JointId id, const JointWrench& load) {
 
 void begin_joints(WorldState& s) {
   s.stats.broken_joints = 0;
-  for (const uint32_t slot : s.joints.watched) {
-    Joint& joint = s.joints.joints[slot];
-    if (!awake(s, joint.a) && !awake(s, joint.b)) continue;
-    joint.motor_impulse.fill(0);
-  }
+  // The realtime solver begins these sums where it first solves a joint in a tick.
+  if (s.settings.stepper != "event") return;
+  for (const uint32_t slot : s.joints.watched) s.joints.joints[slot].motor_impulse.fill(0);
 }
 
 Status end_joints(WorldState& s) {
@@ -112,8 +113,7 @@ Status end_joints(WorldState& s) {
     else if (joint.followed() && !dynamic(s, joint.a) && !dynamic(s, joint.b))
       follow_coordinates(joint, s.bodies.bodies, h);
   }
-  for (uint32_t i = 0; events && i < s.joints.ids.capacity(); ++i)
-    if (s.joints.ids.alive(i)) sum_rows(s, s.joints.joints[i], h);
+  if (events) sum_rows(s, h);
   share_loads(s, events);
   std::vector<std::pair<JointId, JointWrench>> broken;
   for (const uint32_t i : s.joints.watched) {

@@ -266,6 +266,27 @@ std::vector<CourseMotion> course_motions(const WorldState& s) {
   return out;
 }
 
+void end_tick_on_courses(WorldState& s, std::span<const CourseMotion> motions) {
+  if (motions.empty()) return;
+  for (const CourseMotion& motion : motions) {
+    const BodyVelocity at_end = motion.at(s.settings.tick.tick());
+    RigidBody& b = s.bodies.bodies[motion.slot];
+    b.v = at_end.v;
+    b.omega = at_end.omega;
+  }
+  // Of those that the solver has followed. Joints between other bodies are followed afterwards.
+  const auto moved = [&s](uint32_t slot) {
+    return slot != no_body && s.bodies.bodies[slot].dynamic();
+  };
+  for (const uint32_t slot : s.joints.watched) {
+    Joint& joint = s.joints.joints[slot];
+    const auto ties = [&joint](const auto& what) { return what(joint.a) || what(joint.b); };
+    if (joint.followed() && ties(moved) &&
+        ties([motions](uint32_t end) { return course_of(motions, end) != nullptr; }))
+      follow_coordinates(joint, s.bodies.bodies, 0);
+  }
+}
+
 std::vector<CourseMotion> course_changes(const WorldState& s) {
   std::vector<CourseMotion> out;
   const double h = s.settings.tick.tick();

@@ -36,6 +36,8 @@ void set_motor_targets(WorldState& state);
 /// of this tick and its neighbours, so that it jumps only where the course does. Bodies at rest are
 /// left out.
 std::vector<CourseMotion> course_motions(const WorldState& state);
+/// Gives these bodies their velocities at the end of the tick, which has moved them with its means.
+void end_tick_on_courses(WorldState& state, std::span<const CourseMotion> motions);
 /// The velocities of all bodies on courses as they are now, and their present accelerations.
 std::vector<CourseMotion> course_changes(const WorldState& state);
 

@@ -53,6 +53,12 @@ bool same_ends(const Joint& a, const Joint& b) {
   return a.kind == b.kind && a.a == b.a && a.b == b.b;
 }
 
+/// Whether it ties a body that its forces can move.
+bool moves_any(const Joint& joint, std::span<const RigidBody> bodies) {
+  const auto moves = [bodies](uint32_t slot) { return slot != no_body && bodies[slot].dynamic(); };
+  return moves(joint.a) || moves(joint.b);
+}
+
 /// Inserts a number into an ascending list, or removes it.
 void note(uint32_t slot, bool in, std::vector<uint32_t>& list) {
   const auto at = std::ranges::lower_bound(list, slot);
@@ -118,10 +124,13 @@ void JointStore::put(JointId id, const JointDef& def, const BodySet& bodies) {
   Joint made = make_joint(def, bodies);
   const Joint& old = joints[id.index];
   if (same_ends(made, old)) {
-    made.moving_force = old.moving_force;
-    made.relaxing_force = old.relaxing_force;
-    made.motor_impulse = old.motor_impulse;
-    made.impulse = old.impulse;
+    // What it did to bodies that can no longer move says nothing any more.
+    if (moves_any(made, bodies.bodies)) {
+      made.moving_force = old.moving_force;
+      made.relaxing_force = old.relaxing_force;
+      made.motor_impulse = old.motor_impulse;
+      made.impulse = old.impulse;
+    }
     made.value = old.value;
     follow_coordinates(made, bodies.bodies, 0);
   }
@@ -171,13 +180,15 @@ void JointStore::add_coupling(uint32_t slot, uint32_t x, const CoordinateCouple&
   joints[c.b].coupled |= uint8_t(1u << c.y);
 }
 
-double JointStore::coupling_force(uint32_t joint, size_t coordinate) const {
-  double sum = 0;
+std::vector<std::array<double, most_coordinates>> JointStore::coupling_forces() const {
+  std::vector<std::array<double, most_coordinates>> sums;
+  if (couplings.empty()) return sums;
+  sums.resize(joints.size());
   for (const JointCoupling& c : couplings) {
-    if (c.a == joint && c.x == coordinate) sum += c.force();
-    if (c.b == joint && c.y == coordinate) sum -= c.ratio * c.force();
+    sums[c.a][c.x] += c.force();
+    sums[c.b][c.y] -= c.ratio * c.force();
   }
-  return sum;
+  return sums;
 }
 
 JointEnergies JointStore::energies(std::span<const RigidBody> bodies) const {

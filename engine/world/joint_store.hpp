@@ -33,11 +33,13 @@ class JointStore {
   std::vector<uint32_t> timed;
 
   JointsAndCouplings all() const { return {joints, couplings}; }
-  /// Mean force of its couplings along a coordinate over the last tick or sub-step [N], [N m].
-  double coupling_force(uint32_t joint, size_t coordinate) const;
+  /// By slot and coordinate: mean force of its couplings along it over the last tick or sub-step
+  /// [N], [N m]. Empty if there are no couplings.
+  std::vector<std::array<double, most_coordinates>> coupling_forces() const;
   const JointDef* find(JointId id) const { return ids.contains(id) ? &defs[id.index] : nullptr; }
   /// Fills the slot of a live id. If the slot held a joint of the same kind between the same
-  /// bodies, the new one keeps its forces and full turns: this is how motors get new targets.
+  /// bodies, the new one keeps its full turns and, as long as one of the bodies can move, its
+  /// forces: this is how motors get new targets.
   void put(JointId id, const JointDef& def, const BodySet& bodies);
   void release(JointId id);
   /// Energies of all joints at the present state of the bodies.

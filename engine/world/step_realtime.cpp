@@ -219,10 +219,10 @@ class BetweenStages final : public TickListener {
 };
 
 /// The stages of the bodies, from bounds to sleep.
-Status move_bodies(WorldState& s) {
+Status move_bodies(WorldState& s, std::span<const CourseMotion> courses) {
   BetweenStages between(s);
   RealtimeTick tick = realtime_tick(
-      s, {s.settings.realtime, body_links(s), s.workspace.apart, s.contacts, between});
+      s, {s.settings.realtime, body_links(s), s.workspace.apart, s.contacts, between, courses});
   const Status done = tick.run();
   s.stats.bounds_tested = tick.report.bounds_tested;
   s.stats.pairs_found = tick.report.pairs_found;
@@ -234,7 +234,7 @@ Status move_bodies(WorldState& s) {
   return outcome_of_stages(s, tick.report, done);
 }
 
-Status run_stages(WorldState& s) {
+Status run_stages(WorldState& s, std::span<const CourseMotion> courses) {
   {
     const ScopedStage stage(s.profiler, "forces");
     wake_tied_to_particles(s);
@@ -250,7 +250,7 @@ Status run_stages(WorldState& s) {
     if (!s.roster.known()) s.roster.refresh(s.bodies.bodies, s.crew.get());
     if (s.roster.everything()) find_apart(s, s.workspace.apart);
   }
-  if (const Status moved = move_bodies(s); !moved) return moved;
+  if (const Status moved = move_bodies(s, courses); !moved) return moved;
   withdraw_colliding(s);
   return check_finite(s);
 }
@@ -268,7 +268,8 @@ Status step_realtime(WorldState& state) {
   state.event.time_stepped_particles.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   state.stats.time_stepped = 0;
-  Status status = run_stages(state);
+  const std::vector<CourseMotion> courses = course_motions(state);
+  Status status = run_stages(state, courses);
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = step_grains(state, backup);
   if (status && !stop_requested()) status = exchange_fast_impulses(state, backup);
@@ -277,6 +278,7 @@ Status step_realtime(WorldState& state) {
   status = outcome_of_tick(state, std::move(status));
   if (status) finish_particles(state);
   if (status) break_springs(state);
+  if (status) end_tick_on_courses(state, courses);
   if (status) status = end_joints(state);
   if (!status) backup.restore(state);
   if (status) warn_of_dragged_bodies(state);

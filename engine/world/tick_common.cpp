@@ -154,7 +154,8 @@ RealtimeTick realtime_tick(WorldState& s, const TickChoice& choice) {
           .sleep_scratch = s.workspace.sleep_scratch,
           .crew = *s.crew,
           .profiler = s.profiler,
-          .listener = choice.listener};
+          .listener = choice.listener,
+          .courses = choice.courses};
 }
 
 Status outcome_of_tick(const WorldState& s, Status status) {

@@ -22,6 +22,7 @@ struct TickChoice {
   const PairFilter& apart;
   ContactSet& contacts;
   TickListener& listener;
+  std::span<const CourseMotion> courses = {};  ///< see RealtimeTick
 };
 /// The context in which the realtime stages compute a tick.
 RealtimeTick realtime_tick(WorldState& state, const TickChoice& choice);

@@ -2,9 +2,11 @@
 // itself, which this executable counts the calls of.
 #include "tests/support/allocations.hpp"
 
+#include "engine/math/rotation.hpp"
 #include "engine/scene/workloads/run.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <numbers>
 #include <vector>
 
 #include <malloc.h>
@@ -69,6 +71,26 @@ TEST_CASE("a steady tick allocates nothing: boxes, balls, joints") {
   check_workload("W4", 200);  // contacts of one point
   check_workload("W5", 60);   // ball joints
   check_workload("W6", 400);  // hinges, capsules
+}
+
+TEST_CASE("a steady tick allocates nothing: a door whose hinges share its load") {
+  TestWorld w;
+  BodyDef def = TestWorld::box_def({0.5, 1, 0}, {0.5, 1, 0.02});
+  def.can_sleep = false;
+  const BodyId door = w.add(def);
+  for (const double y : {0.3, 1.7}) {
+    JointDef hinge;
+    hinge.kind = JointKind::revolute;
+    hinge.b = door;
+    hinge.frame_a.x = Vec3(0, y, 0);
+    hinge.frame_b.x = Vec3(-0.5, y - 1, 0);
+    hinge.frame_a.q = hinge.frame_b.q = axis_angle(Vec3::UnitX(), -0.5 * std::numbers::pi);
+    REQUIRE(w->create_joint(hinge).ok());
+  }
+  check_steady(*w.world, 60);
+  const auto frame = w->frame();
+  CHECK(frame->joints->at(0).mean_force.y() ==
+        doctest::Approx(frame->joints->at(1).mean_force.y()).epsilon(1e-6));
 }
 
 TEST_CASE("a steady tick of several threads allocates nothing: W1 and W4") {

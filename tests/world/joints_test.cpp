@@ -130,6 +130,25 @@ TEST_CASE("joints can be changed and destroyed, what hung on them wakes and fall
   CHECK(w.world->body(w.first)->pose.x.y() == doctest::Approx(-1).epsilon(1e-3));
 }
 
+TEST_CASE("a joint bears nothing once neither of its bodies can move") {
+  for (const char* stepper : {"realtime", "event"}) {
+    INFO(stepper);
+    HungBalls w(false, stepper);
+    w.run(60);
+    const auto load = [&w](size_t joint) {
+      return w.world->frame()->joints->at(joint).mean_force.norm();
+    };
+    CHECK(load(0) == doctest::Approx(2 * 2 * 9.81).epsilon(1e-3));
+    BodyDef held = *w.world->body_def(w.first);
+    held.pose = w.world->frame()->body(w.first.index).pose;
+    held.type = BodyType::fixed;
+    REQUIRE(w.world->set_body(w.first, held).ok());
+    w.run(30);
+    CHECK(load(0) == 0);
+    CHECK(load(1) == doctest::Approx(2 * 9.81).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("joints that cannot be are refused when they are asked for") {
   HungBalls w;
   CHECK_FALSE(w.world->create_joint(ball_joint({}, {}, Vec3::Zero(), Vec3::Zero())).ok());

@@ -131,6 +131,56 @@ TEST_CASE("what falls asleep and is hit in the next tick by a thin mesh is hit o
   CHECK(together > 0);
 }
 
+TEST_CASE("a lamp that is woken in a later part of a tick bears its weight once") {
+  // Its joint is as strong as one and a half times its weight, and the ring that grazes it weighs
+  // next to nothing. Reference: gravity acts on it only from where it wakes, so that the mean force
+  // of that tick is a part of its weight.
+  const double weight = 9.81;
+  struct Lamp {
+    TestWorld w;
+    BodyId lamp, ring;
+    Lamp(double from) {
+      BodyDef hung = TestWorld::box_def({0, 3, 0});
+      hung.mass = 1;
+      lamp = w.add(hung);
+      JointDef cord;
+      cord.kind = JointKind::rigid;
+      cord.b = lamp;
+      cord.frame_a.x = {0, 3, 0};
+      cord.break_force = 1.5 * 9.81;
+      REQUIRE(w->create_joint(cord).ok());
+      ShapeDef shape;
+      shape.type = ShapeType::triangle_mesh;
+      shape.mesh = std::make_shared<const TriangleMesh>(ring_mesh(0.3, 0.05, 12, 6));
+      BodyDef def = TestWorld::shape_def(shape, {from, 3, 0});
+      def.velocity = {20, 0, 0};
+      def.gravity_scale = 0;
+      def.mass = 1e-4;
+      ring = w.add(def);
+    }
+  };
+  Lamp miss(1e3);
+  int sleep = 0;
+  while (!miss.w.body(miss.lamp).asleep) miss.w.step(), ++sleep;
+  sleep += 2;
+  int late = 0;
+  for (int k = 0; k < 16; ++k) {
+    INFO(k);
+    Lamp hit(-0.85 - 20.0 / 60 * (sleep + k / 16.0));
+    for (int tick = 0; tick < sleep + 4; ++tick) {
+      const bool slept = hit.w.body(hit.lamp).asleep;
+      hit.w.step();
+      const auto frame = hit.w->frame();
+      REQUIRE(frame->joints->size() == 1);
+      const double force = frame->joints->front().mean_force.norm();
+      CHECK(force < 1.01 * weight);
+      late += slept && !hit.w.body(hit.lamp).asleep && force < 0.9 * weight;
+    }
+    CHECK_FALSE(hit.w.body(hit.lamp).asleep);
+  }
+  CHECK(late > 0);
+}
+
 TEST_CASE("sleepers that look around know of each other once") {
   // Reference: bodies that are made asleep far away add as much to the snapshot, which names all
   // that is known of pairs, where two sleepers are near each other as where they are not.

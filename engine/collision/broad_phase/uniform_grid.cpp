@@ -37,19 +37,21 @@ double UniformGridBroadPhase::measure(std::span<const BroadPhaseProxy> proxies) 
   finite_sizes_.clear();
   const size_t stride = 1 + proxies.size() / median_sample;
   size_t phase = 0, finite = 0;
-  double largest = 0;
   for (const double size : sizes_) {
     if (size == std::numeric_limits<double>::infinity()) continue;
-    largest = std::max(largest, size);
     // One size of each stride, at a varying position, so that periodic patterns of sizes do not
     // bias it.
     if (finite++ % stride == phase) finite_sizes_.push_back(size);
     if (finite % stride == 0) phase = (phase * 5 + 3) % stride;
   }
-  if (finite_sizes_.empty()) return largest;
+  if (finite_sizes_.empty()) return 0;
   const auto middle = finite_sizes_.begin() + std::ptrdiff_t(finite_sizes_.size() / 2);
   std::nth_element(finite_sizes_.begin(), middle, finite_sizes_.end());
-  return std::min(2 * *middle, largest);
+  const double most = 2 * *middle;
+  double edge = 0;
+  for (const double size : sizes_)
+    if (size <= most) edge = std::max(edge, size);
+  return edge;
 }
 
 void UniformGridBroadPhase::compare_large(std::span<const BroadPhaseProxy> proxies) {

@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// One hash grid (Coutinho §2.4.1) whose cells have the largest size, but at most twice the median.
-/// Larger bounds are compared with the cells that they cover, and with each other one by one, or,
-/// if they are many, by a tree. Infinite bounds are compared with all.
+/// One hash grid (Coutinho §2.4.1) whose cells have the largest size that is at most twice the
+/// median. Larger bounds are compared with the cells that they cover, and with each other one by
+/// one, or, if they are many, by a tree. Infinite bounds are compared with all.
 class UniformGridBroadPhase final : public BroadPhase {
  public:
   void find_pairs(std::span<const BroadPhaseProxy> proxies, std::vector<ProxyPair>& pairs) override;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/course_motion.hpp"
 #include "engine/dynamics/event/event_drives.hpp"
 #include "engine/dynamics/joints/articulation.hpp"
 
@@ -85,11 +86,6 @@ struct GroupBooks {
   void add_impulses(const Articulation& held, std::span<const double> impulses);
   /// Adds impulses, one for each part of the drives.
   void add_impulses(const EventDrives& drives, std::span<const double> impulses);
-};
-
-/// Velocities of a body; for impulses, their mean before and after.
-struct BodyVelocity {
-  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
 };
 
 /// Adds the effects of a force or impulse `push` on B, and its opposite on A, at a point, given the

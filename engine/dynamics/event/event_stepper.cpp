@@ -331,8 +331,9 @@ Status EventStepper::step(std::span<RigidBody> bodies, BroadPhase& broad_phase,
       if (g.time_stepped && std::ranges::find(g.bodies, context.search->body) != g.bodies.end())
         context.search->searches.clear();  // of the attempt that was given up
   for (const CourseMotion& c : context.courses) {
-    bodies[c.slot].v = c.at_start.v + h * c.change.v;
-    bodies[c.slot].omega = c.at_start.omega + h * c.change.omega;
+    const BodyVelocity at_end = c.at(h);
+    bodies[c.slot].v = at_end.v;
+    bodies[c.slot].omega = at_end.omega;
   }
   turned.assign(context.joints.size(), std::nullopt);
   for (const BodyGroup& g : groups_)

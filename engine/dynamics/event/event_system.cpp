@@ -190,8 +190,8 @@ void EventSystem::place_kinematic(double t) {
 
 void EventSystem::set_courses(std::span<const CourseMotion> courses) {
   for (Carried& k : kinematic_) {
-    const auto at = std::ranges::lower_bound(courses, k.slot, {}, &CourseMotion::slot);
-    if (at == courses.end() || at->slot != k.slot) continue;
+    const CourseMotion* const at = course_of(courses, k.slot);
+    if (!at) continue;
     k.given = k.velocity;
     k.at_start = at->at_start;
     k.change = at->change;

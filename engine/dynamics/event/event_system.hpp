@@ -19,13 +19,6 @@ namespace tumble {
 /// time t since the beginning of the tick [s].
 using SmoothForces = std::function<void(double t, std::span<const uint32_t> bodies)>;
 
-/// Motion of a kinematic body whose velocity changes at a constant rate during a tick.
-struct CourseMotion {
-  uint32_t slot = 0;
-  BodyVelocity at_start;  ///< at the start of the tick
-  BodyVelocity change;    ///< rate of change [1/s of the above]
-};
-
 /// Kinetic energy of the rotation of a body with angular velocity `omega` in world axes [J].
 inline double turning_energy(const RigidBody& b, const Vec3& omega) {
   const Vec3 own = b.pose.inverse_direction(omega);

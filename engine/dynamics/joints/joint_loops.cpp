@@ -1,6 +1,5 @@
 #include "engine/dynamics/joints/joint_loops.hpp"
 
-#include "engine/dynamics/joints/joint_wrench.hpp"
 #include "engine/dynamics/joints/tolerances.hpp"
 
 #include <algorithm>
@@ -105,18 +104,20 @@ std::vector<JointLoops> find_loops(std::span<const Joint> joints, std::span<cons
 void share_impulses(JointLoops& loops, std::span<const RigidBody> bodies, std::span<Joint> joints) {
   Articulation& rows = loops.rows;
   rows.look(bodies);
-  std::vector<DofBlock> blocks(loops.bodies.size());
-  put_masses(bodies, loops.bodies, blocks);
-  std::vector<double> given(rows.size());
-  std::vector<Vec3> arms;
+  loops.blocks.assign(loops.bodies.size(), {});
+  put_masses(bodies, loops.bodies, loops.blocks);
+  std::vector<double>&given = loops.given, &change = loops.change;
+  std::vector<Vec3>& arms = loops.arms;
+  given.resize(rows.size());
+  arms.clear();
   for (size_t k = 0; k < loops.joints.size(); ++k) {
     const Joint& joint = joints[loops.joints[k]];
     arms.push_back(joint_sides(joint, bodies).b.arm);
     for (size_t r = rows.first_row(k); r < rows.first_row(k + 1); ++r)
       given[r] = share_of(rows.rows()[r], arms[k], joint.impulse);
   }
-  std::vector<double> change = given;
-  spread_forces(rows, blocks, typical_arm(bodies, loops.bodies), change);
+  change = given;
+  loops.least.spread(rows, loops.blocks, typical_arm(bodies, loops.bodies), change);
   for (size_t r = 0; r < change.size(); ++r) change[r] -= given[r];
   for (size_t k = 0; k < loops.joints.size(); ++k) {
     const size_t first = rows.first_row(k), count = rows.first_row(k + 1) - first;

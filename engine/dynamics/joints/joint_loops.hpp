@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/dynamics/joints/articulation.hpp"
+#include "engine/dynamics/joints/joint_wrench.hpp"
 
 #include <cstdint>
 #include <span>
@@ -14,6 +14,11 @@ struct JointLoops {
   std::vector<uint32_t> bodies;  ///< slots, ascending: those that these joints move
   std::vector<uint32_t> joints;  ///< slots, ascending
   Articulation rows;             ///< of the joints; block i is bodies[i]
+  // Memory of share_impulses().
+  LeastForces least;
+  std::vector<DofBlock> blocks;
+  std::vector<double> given, change;  ///< by row
+  std::vector<Vec3> arms;             ///< by joint
 };
 
 /// The loops among the joints `which`, separate where no body connects them, except those of more

@@ -18,7 +18,11 @@ constexpr uint32_t body_freedoms = 6;
 class ScaledRows {
  public:
   ScaledRows(const Articulation& joints, std::span<const DofBlock> blocks, double arm)
-      : joints_(joints), blocks_(blocks), arm_(arm) {
+      : joints_(joints), blocks_(blocks), arm_(arm) {}
+
+  /// The places of G^T G, which stay the same as long as the joints tie the same blocks.
+  BlockLdl layout() const {
+    const Articulation& joints = joints_;
     std::vector<std::pair<uint32_t, uint32_t>> coupled;
     for (size_t j = 0; j < joints.joints(); ++j) {
       if (joints.first_row(j) == joints.first_row(j + 1)) continue;
@@ -26,9 +30,13 @@ class ScaledRows {
     }
     for (size_t r = joints.first_row(joints.joints()); r < joints.size(); ++r)
       add_pairs(r, coupled);
-    normal_ = BlockLdl(std::vector<uint32_t>(blocks.size(), body_freedoms), coupled);
-    for (size_t r = 0; r < joints.size(); ++r) add_row(r);
-    normal_.factor();
+    return BlockLdl(std::vector<uint32_t>(blocks_.size(), body_freedoms), coupled);
+  }
+  /// Factors G^T G.
+  void factor(BlockLdl& normal) const {
+    normal.clear();
+    for (size_t r = 0; r < joints_.size(); ++r) add_row(r, normal);
+    normal.factor();
   }
 
   /// Force by row in newtons per force in the row's own unit.
@@ -42,9 +50,10 @@ class ScaledRows {
           out[body_freedoms * block + k] += sign * forces[r] * g[k];
       });
   }
-  /// forces += G (G^T G)^+ pushes.
-  void add_forces(std::vector<double> pushes, std::span<double> forces) const {
-    normal_.solve(pushes);
+  /// forces += G (G^T G)^+ pushes, with the factor of G^T G; pushes become displacements.
+  void add_forces(const BlockLdl& normal, std::span<double> pushes,
+                  std::span<double> forces) const {
+    normal.solve(pushes);
     for (size_t r = 0; r < forces.size(); ++r)
       for_ends(r, [&](uint32_t block, const std::array<double, body_freedoms>& g) {
         for (size_t k = 0; k < body_freedoms; ++k)
@@ -74,7 +83,7 @@ class ScaledRows {
     });
   }
 
-  void add_row(size_t row) {
+  void add_row(size_t row, BlockLdl& normal) const {
     std::array<std::pair<uint32_t, std::array<double, body_freedoms>>, 4> ends;
     size_t count = 0;
     for_ends(row, [&](uint32_t block, const auto& g) {
@@ -89,13 +98,12 @@ class ScaledRows {
       for (size_t q = 0; q <= p; ++q)
         for (uint32_t i = 0; i < body_freedoms; ++i)
           for (uint32_t k = 0; k < body_freedoms; ++k)
-            normal_.add(ends[p].first, i, ends[q].first, k, ends[p].second[i] * ends[q].second[k]);
+            normal.add(ends[p].first, i, ends[q].first, k, ends[p].second[i] * ends[q].second[k]);
   }
 
   const Articulation& joints_;
   std::span<const DofBlock> blocks_;
   double arm_;
-  BlockLdl normal_;  ///< G^T G
 };
 
 double greatest(std::span<const double> values) {
@@ -149,27 +157,30 @@ double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> 
 
 void take_least_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
                        std::span<double> forces) {
-  if (joints.dependent_rows() > 0) spread_forces(joints, blocks, arm, forces);
+  if (joints.dependent_rows() > 0) LeastForces().spread(joints, blocks, arm, forces);
 }
 
-void spread_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
-                   std::span<double> forces) {
+void LeastForces::spread(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
+                         std::span<double> forces) {
   const ScaledRows rows(joints, blocks, arm);
-  std::vector<double> given(forces.size()), least(forces.size(), 0.0);
-  for (size_t r = 0; r < given.size(); ++r) given[r] = rows.unit(r) * forces[r];
-  const double size = greatest(given);
-  std::vector<double> left(rows.freedoms(), 0.0);
-  rows.add_pushes(given, 1, left);
+  if (normal_.size() == 0) normal_ = rows.layout();
+  rows.factor(normal_);
+  given_.resize(forces.size());
+  for (size_t r = 0; r < given_.size(); ++r) given_[r] = rows.unit(r) * forces[r];
+  const double size = greatest(given_);
+  least_.assign(forces.size(), 0.0);
+  left_.assign(rows.freedoms(), 0.0);
+  rows.add_pushes(given_, 1, left_);
   for (int pass = 0; pass < tolerances::most_reaction_passes &&
-                     greatest(left) > tolerances::reaction_rounding * size;
+                     greatest(left_) > tolerances::reaction_rounding * size;
        ++pass) {
-    rows.add_forces(left, least);
-    std::fill(left.begin(), left.end(), 0.0);
-    rows.add_pushes(given, 1, left);
-    rows.add_pushes(least, -1, left);
+    rows.add_forces(normal_, left_, least_);
+    std::ranges::fill(left_, 0.0);
+    rows.add_pushes(given_, 1, left_);
+    rows.add_pushes(least_, -1, left_);
   }
-  if (greatest(left) > tolerances::reaction_left * size) return;
-  for (size_t r = 0; r < forces.size(); ++r) forces[r] = least[r] / rows.unit(r);
+  if (greatest(left_) > tolerances::reaction_left * size) return;
+  for (size_t r = 0; r < forces.size(); ++r) forces[r] = least_[r] / rows.unit(r);
 }
 
 }  // namespace tumble

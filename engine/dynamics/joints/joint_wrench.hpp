@@ -1,7 +1,9 @@
 #pragma once
 #include "engine/dynamics/joints/articulation.hpp"
+#include "engine/math/block_ldl.hpp"
 
 #include <span>
+#include <vector>
 
 namespace tumble {
 
@@ -27,8 +29,18 @@ double typical_arm(std::span<const RigidBody> bodies, std::span<const uint32_t> 
 /// have every symmetry that the joints have. The pushes on bodies stay the same.
 void take_least_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
                        std::span<double> forces);
-/// The same where only the rows are known, by look(), and not whether any depend.
-void spread_forces(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
-                   std::span<double> forces);
+
+/// The same, again and again for joints that tie the same blocks: keeps the layout of the equations
+/// and its memory.
+class LeastForces {
+ public:
+  /// Needs only the rows of the joints, by look(), and not whether any depend.
+  void spread(const Articulation& joints, std::span<const DofBlock> blocks, double arm,
+              std::span<double> forces);
+
+ private:
+  BlockLdl normal_;
+  std::vector<double> given_, least_, left_;
+};
 
 }  // namespace tumble

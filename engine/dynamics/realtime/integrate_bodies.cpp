@@ -68,8 +68,12 @@ void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
 void integrate_velocities(const SolverContext& c, const SolverIsland& island, double hs) {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
     const SolverMotion& motion = island.motions[i];
-    if (!motion.dynamic) continue;
     SolverBody& body = island.bodies[i];
+    if (motion.on_course) {
+      body.v += hs * motion.acceleration;
+      body.w += hs * motion.turning;
+    }
+    if (!motion.dynamic) continue;
     body.v += hs * motion.acceleration;
     body.w += body.inverse_inertia * (hs * c.bodies[motion.slot].torque);
   }

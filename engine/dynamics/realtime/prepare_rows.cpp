@@ -101,17 +101,24 @@ void prepare_point(const SolverContext& c, const SolverIsland& island, const Con
   p.bounce = bounce_speed(restitution, approach, acceleration, p.gap);
 }
 
-void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion) {
+void prepare_body(const SolverContext& c, double hs, double kick, SolverBody& out,
+                  SolverMotion& motion) {
   motion.dq = Quat::Identity();
   out.dx.setZero();
   out.turn.setZero();
   if (motion.slot == ~uint32_t{0}) return;
   const RigidBody& body = c.bodies[motion.slot];
-  out.v = body.v;
-  out.w = body.omega;
+  const BodyVelocity first = first_velocity(c, motion.slot, hs, kick);
+  out.v = first.v;
+  out.w = first.omega;
   motion.dynamic = body.dynamic();
   motion.spins = turns_fast(body, c.h);
-  if (!motion.dynamic) return;
+  if (!motion.dynamic) {
+    const CourseMotion* const course = course_of(c.courses, motion.slot);
+    motion.on_course = course != nullptr;
+    if (course) motion.acceleration = course->change.v, motion.turning = course->change.omega;
+    return;
+  }
   // With the inertia tensor of an axis that is off by an angle d, an impact across a needle causes
   // d I3 / I1 times too much spin about its axis.
   motion.spins = motion.spins || slender_inertia(body.inertia_body);
@@ -123,6 +130,16 @@ void prepare_body(const SolverContext& c, SolverBody& out, SolverMotion& motion)
 
 }  // namespace
 
+BodyVelocity first_velocity(const SolverContext& c, uint32_t slot, double hs, double kick) {
+  const RigidBody& body = c.bodies[slot];
+  const CourseMotion* const course = body.dynamic() ? nullptr : course_of(c.courses, slot);
+  if (!course) return {body.v, body.omega};
+  // The body's own velocity is the mean over all sub-steps, that of their middle.
+  const double before_middle = 0.5 * c.h + kick - 0.5 * hs;
+  return {body.v - before_middle * course->change.v,
+          body.omega - before_middle * course->change.omega};
+}
+
 bool is_hard(const Contact& contact, bool both_move, bool delicate) {
   if (!both_move) return true;
   const bool round = contact.count == 1 && contact.rounding_a > 0 && contact.rounding_b > 0;
@@ -131,7 +148,7 @@ bool is_hard(const Contact& contact, bool both_move, bool delicate) {
 
 void prepare_rows(const SolverContext& c, const SolverIsland& island, double hs) {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
-    prepare_body(c, island.bodies[i], island.motions[i]);
+    prepare_body(c, hs, island.kick, island.bodies[i], island.motions[i]);
   }
   const auto [soft, hard] = contact_softness(*c.settings, hs);
   for (ContactRow& row : island.rows) {

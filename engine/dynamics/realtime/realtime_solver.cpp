@@ -39,6 +39,7 @@ struct RealtimeSolver::Scratch {
   std::vector<SpringRow> springs;
   std::vector<SpringTurn> spring_turns;
   std::vector<JointPush> joint_pushes;
+  std::vector<uint8_t> begun;             ///< by joint: whether it was solved in this tick
   std::vector<SolveResiduals> residuals;  ///< by island
   std::vector<uint32_t>
       local;  ///< by body slot: its solver body in the island being laid out, else no_slot
@@ -187,6 +188,18 @@ void RealtimeSolver::Scratch::lay_out(const SolverContext& context, const Island
 
 namespace {
 
+/// Discards the impulses of the last tick in which a joint of these islands was solved, where this
+/// one has not been solved in the present tick. A joint may be solved in later parts of a tick
+/// only, if a body of it wakes there.
+void begin_joints(const SolverContext& c, const IslandSet& islands, std::span<uint8_t> begun) {
+  for (const uint32_t k : islands.joints) {
+    if (begun[k]) continue;
+    begun[k] = 1;
+    c.joints[k].impulse = {};
+    c.joints[k].motor_impulse.fill(0);
+  }
+}
+
 /// Adds up the impulses of the islands' joints over the tick so far, and updates the values of
 /// their coordinates after `c.h`.
 void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew) {
@@ -194,7 +207,6 @@ void follow_joints(const SolverContext& c, const IslandSet& islands, Crew& crew)
   for_chunks(&crew, which.size(), [&](size_t, size_t first, size_t last) {
     for (const uint32_t k : which.subspan(first, last - first)) {
       Joint& joint = c.joints[k];
-      if (c.passed == 0) joint.impulse = {};
       joint.impulse.force += c.joint_pushes[k].impulse;
       joint.impulse.torque += c.joint_pushes[k].twist;
       if (joint.followed()) follow_coordinates(joint, c.bodies, c.h, true);
@@ -271,23 +283,31 @@ void RealtimeSolver::add_memory(MemoryUse& use) const {
   const Scratch& s = *scratch_;
   use.bodies += heap_bytes(s.layouts, s.bodies, s.motions, s.local) + s.plans.bytes();
   use.contacts += heap_bytes(s.rows, s.points);
-  use.joints += heap_bytes(s.joints, s.drives, s.joint_pushes, s.springs, s.spring_turns);
+  use.joints += heap_bytes(s.joints, s.drives, s.joint_pushes, s.begun, s.springs, s.spring_turns);
   s.wide.add_memory(use);
 }
 
 RealtimeSolver::RealtimeSolver(RealtimeSolver&&) noexcept = default;
 RealtimeSolver& RealtimeSolver::operator=(RealtimeSolver&&) noexcept = default;
 
+void RealtimeSolver::begin_tick() {
+  scratch_->begun.clear();
+}
+
 Result<RealtimeSolveStats> RealtimeSolver::step(std::span<RigidBody> bodies, ContactSet& contacts,
                                                 const IslandSet& islands, const Vec3& gravity,
                                                 double h, const RealtimeSettings& settings,
                                                 Crew& crew, std::span<Joint> joints,
                                                 std::span<JointCoupling> couplings, double passed,
-                                                std::span<SolvedSpring> springs) {
+                                                std::span<SolvedSpring> springs,
+                                                std::span<const CourseMotion> courses) {
   Scratch& s = *scratch_;
   s.joint_pushes.resize(joints.size());
+  s.begun.resize(joints.size(), 0);
   const SolverContext context{bodies, contacts.contacts(), gravity,   h,      &settings,
-                              joints, s.joint_pushes,      couplings, passed, springs};
+                              joints, s.joint_pushes,      couplings, passed, springs,
+                              courses};
+  begin_joints(context, islands, s.begun);
   s.plans.make(context, islands, crew);
   s.lay_out(context, islands);
   crew.each(s.layouts.size(), [&](size_t i) {

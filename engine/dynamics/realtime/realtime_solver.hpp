@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/core/crew.hpp"
 #include "engine/core/result.hpp"
+#include "engine/dynamics/bodies/course_motion.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/islands/islands.hpp"
 #include "engine/dynamics/joints/joint.hpp"
@@ -43,19 +44,26 @@ class RealtimeSolver {
   RealtimeSolver(RealtimeSolver&&) noexcept;
   RealtimeSolver& operator=(RealtimeSolver&&) noexcept;
 
+  /// To be called before the first step of a tick: Joint::impulse and motor_impulse are sums over
+  /// the steps since then. Those of a joint that no step solves, because its bodies sleep, stay
+  /// what they were in the last tick that solved it.
+  void begin_tick();
+
   /// Moves every awake dynamic body of `islands` and every kinematic body. Writes back poses and
   /// velocities, the impulses of contacts, of the joints that the islands name and of their
   /// couplings, and those of `springs`, whose links were used in building the islands. `h` [s] may
-  /// be a part of the tick, of which `passed` seconds are over. RigidBody::force and torque exclude
-  /// gravity and stay unchanged. Islands are solved in parallel on `crew`; the result does not
-  /// depend on the number of threads. Error `numeric` names the first body slot that became
-  /// non-finite and its deepest contact; the state of the bodies is then undefined.
+  /// be a part of the tick, of which `passed` seconds are over. The velocities of kinematic bodies
+  /// are means over `h`, about which those on `courses` change at a constant rate. RigidBody::force
+  /// and torque exclude gravity and stay unchanged. Islands are solved in parallel on `crew`; the
+  /// result does not depend on the number of threads. Error `numeric` names the first body slot
+  /// that became non-finite and its deepest contact; the state of the bodies is then undefined.
   Result<RealtimeSolveStats> step(std::span<RigidBody> bodies, ContactSet& contacts,
                                   const IslandSet& islands, const Vec3& gravity, double h,
                                   const RealtimeSettings& settings, Crew& crew,
                                   std::span<Joint> joints = {},
                                   std::span<JointCoupling> couplings = {}, double passed = 0,
-                                  std::span<SolvedSpring> springs = {});
+                                  std::span<SolvedSpring> springs = {},
+                                  std::span<const CourseMotion> courses = {});
 
   /// By joint index: impulses of the joints on their bodies in the last step, for joints that its
   /// islands name.
@@ -63,7 +71,7 @@ class RealtimeSolver {
 
   void add_memory(MemoryUse& use) const;
 
-  /// Scratch memory only: no state outlives a step.
+  /// Scratch memory only: no state outlives a tick.
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/dynamics/bodies/body.hpp"
+#include "engine/dynamics/bodies/course_motion.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/realtime/coupled_joints.hpp"
 #include "engine/dynamics/realtime/drive_row.hpp"
@@ -30,7 +31,9 @@ struct SolverBody {
 struct SolverMotion {
   uint32_t slot = ~uint32_t{0};  ///< slot of the body; ~0 for the one that stands for fixed bodies
   Quat dq = Quat::Identity();    ///< rotation since the start of the tick
-  Vec3 acceleration = Vec3::Zero();  ///< by gravity and force [m/s2]
+  Vec3 acceleration = Vec3::Zero();  ///< by gravity and force, or of a course [m/s2]
+  Vec3 turning = Vec3::Zero();       ///< angular acceleration of a course [rad/s2]
+  bool on_course = false;            ///< kinematic, with a velocity that changes within the tick
   bool dynamic = false;
   bool spherical = false;  ///< all moments of inertia are equal: no gyroscopic term
   bool spins = false;  ///< turns so far in a tick, or is so slender, that lever arms must follow
@@ -135,7 +138,14 @@ struct SolverContext {
   std::span<JointCoupling> couplings = {};
   double passed = 0;  ///< time of the tick that is over, if `h` is a part of it [s]
   std::span<SolvedSpring> springs = {};
+  std::span<const CourseMotion> courses = {};  ///< of kinematic bodies, by slot
 };
+
+/// The velocity of a body from which its sub-steps of `hs` seconds begin, in which forces act for
+/// `kick` seconds before joints and contacts are solved. The velocity of a kinematic body on a
+/// course changes with every kick at its constant rate, such that the body moves with its mean
+/// velocity over each sub-step.
+BodyVelocity first_velocity(const SolverContext& context, uint32_t slot, double hs, double kick);
 
 /// Fills in bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count and
 /// source set.

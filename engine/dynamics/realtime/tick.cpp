@@ -66,7 +66,7 @@ Status RealtimeTick::solve(double part, const RealtimeSettings& tuning) {
     continuous.pass_through(apart);
   }
   const auto solved = solver.step(bodies, contacts, islands, gravity, part, tuning, crew, joints,
-                                  couplings, passed, springs);
+                                  couplings, passed, springs, courses);
   if (!solved) return solved.error();
   report.solve = *solved;
   return {};
@@ -121,16 +121,28 @@ Status RealtimeTick::advance(double part, const RealtimeSettings& tuning) {
   return {};
 }
 
+/// Gives bodies on courses their velocities of a moment of the tick: the mean over a time of which
+/// it is the middle.
+void RealtimeTick::set_courses(double t) {
+  for (const CourseMotion& course : courses) {
+    const BodyVelocity now = course.at(t);
+    bodies[course.slot].v = now.v;
+    bodies[course.slot].omega = now.omega;
+  }
+}
+
 /// The whole tick of all movable bodies in equal parts; the pairs of the first part are known.
 Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
+    if (parts > 1) set_courses((part + 0.5) * (h / parts));
     if (part > 0)
       if (const Status found = find_pairs(h / parts); !found) return found;
     if (stop_requested()) return stopped_error();
     passed = part * (h / parts);
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }
+  if (parts > 1) set_courses(0.5 * h);
   contacts.scale_impulses(parts, bodies);
   sleep();
   listener.slept();
@@ -178,6 +190,7 @@ Status RealtimeTick::by_groups(TickParts& parts) {
 }
 
 Status RealtimeTick::run() {
+  solver.begin_tick();
   if (const Status found = find_pairs(h); !found) return found;
   TickParts parts;
   parts.find({bodies, roster.active(), proxies, pairs, links, contacts, h, close, gravity.norm()},

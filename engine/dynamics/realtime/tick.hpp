@@ -87,6 +87,9 @@ struct RealtimeTick {
   Crew& crew;
   Profiler& profiler;
   TickListener& listener;
+  /// Kinematic bodies whose velocity changes within the tick, by slot. RigidBody::v and omega are
+  /// its means, over the tick before and after run(), over the present part within it.
+  std::span<const CourseMotion> courses = {};
   /// Contacts of all bodies that move far for their size, not only of meshes, are found anew within
   /// the tick.
   bool close = false;
@@ -107,6 +110,7 @@ struct RealtimeTick {
 
  private:
   void wake_beside_carried();
+  void set_courses(double t);
   Status advance(double part, const RealtimeSettings& tuning);
   Status in_parts(int parts);
   Status group_tick(TickParts& parts, int number);

@@ -30,21 +30,42 @@ bool turns(std::span<const RigidBody> bodies, uint32_t slot) {
   return slot != no_body && bodies[slot].type != BodyType::fixed;
 }
 
+/// Where an anchor is: all that a ball joint needs of its ends.
+struct AnchorNow {
+  Vec3 arm, at;
+};
+
+AnchorNow anchor_now(std::span<const RigidBody> bodies, uint32_t slot, const Pose& frame) {
+  if (slot == no_body) return {frame.x, frame.x};
+  const Pose& pose = bodies[slot].pose;
+  const Vec3 arm = pose.direction(frame.x);
+  return {arm, pose.x + arm};
+}
+
+/// The axes of the joint's frame on a body, as columns.
+Mat3 axes_now(std::span<const RigidBody> bodies, uint32_t slot, const Pose& frame) {
+  const Quat q = slot == no_body ? frame.q : bodies[slot].pose.q * frame.q;
+  return q.toRotationMatrix();
+}
+
 void stage_joint(const SolverContext& c, const Joint& from, size_t lane, double hs, WideJoint& out,
                  WideHinge* hinge) {
-  const JointSides sides = joint_sides(from, c.bodies);
+  const AnchorNow a = anchor_now(c.bodies, from.a, from.frame_a);
+  const AnchorNow b = anchor_now(c.bodies, from.b, from.frame_b);
   const Vec3 none = Vec3::Zero();
-  put_floats(out.at_a, lane, turns(c.bodies, from.a) ? sides.a.arm : none);
-  put_floats(out.at_b, lane, turns(c.bodies, from.b) ? sides.b.arm : none);
-  put_floats(out.apart, lane, sides.b.anchor() - sides.a.anchor());
+  put_floats(out.at_a, lane, turns(c.bodies, from.a) ? a.arm : none);
+  put_floats(out.at_b, lane, turns(c.bodies, from.b) ? b.arm : none);
+  put_floats(out.apart, lane, b.at - a.at);
   for (size_t k = 0; k < 3; ++k) {
     out.moving[k][lane] = float(hs * from.moving_force[k]);
     out.relaxing[k][lane] = float(hs * from.relaxing_force[k]);
   }
   if (!hinge) return;
-  put_floats(hinge->x_a, lane, sides.a.axes.col(0));
-  put_floats(hinge->y_a, lane, sides.a.axes.col(1));
-  put_floats(hinge->z_b, lane, sides.b.axes.col(2));
+  const Mat3 axes_a = axes_now(c.bodies, from.a, from.frame_a);
+  const Mat3 axes_b = axes_now(c.bodies, from.b, from.frame_b);
+  put_floats(hinge->x_a, lane, axes_a.col(0));
+  put_floats(hinge->y_a, lane, axes_a.col(1));
+  put_floats(hinge->z_b, lane, axes_b.col(2));
   for (size_t k = 0; k < 2; ++k) {
     hinge->moving[k][lane] = float(hs * from.moving_force[3 + k]);
     hinge->relaxing[k][lane] = float(hs * from.relaxing_force[3 + k]);

@@ -90,7 +90,7 @@ void store_turning(const WideTurning& from, uint32_t lane, double rate, const Ve
 
 }  // namespace
 
-void WideIsland::stage_bodies(const SolverContext& c, uint32_t begin, uint32_t end) {
+void WideIsland::stage_bodies(const SolverContext& c, double hs, uint32_t begin, uint32_t end) {
   for (uint32_t k = begin; k < end; ++k) {
     WideBody& to = rows_.bodies[k];
     WideMass& mass = rows_.masses[k];
@@ -101,8 +101,9 @@ void WideIsland::stage_bodies(const SolverContext& c, uint32_t begin, uint32_t e
       continue;
     }
     const RigidBody& from = c.bodies[slots_[k]];
-    put_floats(to.v, from.v);
-    put_floats(to.w, from.omega);
+    const BodyVelocity first = first_velocity(c, slots_[k], hs, kick_);
+    put_floats(to.v, first.v);
+    put_floats(to.w, first.omega);
     for (int i = 0; i < 4; ++i) mass.q[size_t(i)] = float(from.pose.q.coeffs()[i]);
     if (!from.dynamic()) continue;
     put_floats(to.acceleration, from.gravity_scale * c.gravity + from.inverse_mass * from.force);

@@ -110,7 +110,7 @@ void WideIsland::prepare(const SolverContext& c, Crew& crew, const WideStep& ste
   rows_.points.resize(bundled_points_);
   rows_.turnings.resize(turning_bundles_);
   joint_bundles_.resize(rows_);
-  each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, begin, end); });
+  each_block(crew, bodies, [&](uint32_t begin, uint32_t end) { stage_bodies(c, hs, begin, end); });
   each_chunk(crew, all_bundles(), [&](WideRange r) {
     stage_contacts(c, r);
     wide_prepare(rows_, r, step);

@@ -144,7 +144,7 @@ class WideIsland {
   WideRange all_joints() const { return {0, joint_bundles_.bundles()}; }
   WideRange all_bundles() const { return {0, uint32_t(bundles_.size())}; }
 
-  void stage_bodies(const SolverContext& context, uint32_t begin, uint32_t end);
+  void stage_bodies(const SolverContext& context, double hs, uint32_t begin, uint32_t end);
   void stage_bundle(const SolverContext& context, uint32_t bundle);
   void fetch_contacts(const SolverContext& context, uint32_t bundle) const;
   void stage_contacts(const SolverContext& context, WideRange bundles);
