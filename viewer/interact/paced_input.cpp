@@ -1,6 +1,6 @@
 #include "viewer/interact/paced_input.hpp"
 
-#include <algorithm>
+#include <cstddef>
 
 namespace tumble {
 namespace {
@@ -15,9 +15,11 @@ bool edits_text(Key key) {
 
 }  // namespace
 
+/// A key that edits is seen only if it is down during one picture and up during another. Of one
+/// picture the panels take the text first, and then such keys.
 size_t PacedInput::count_fitting() const {
   bool typed = false, commanded = false;
-  bool pressed[size_t(Key::count)] = {};
+  bool changed[size_t(Key::count)] = {};
   for (size_t i = 0; i < waiting_.size(); ++i) {
     const InputEvent& event = waiting_[i];
     if (std::holds_alternative<TextTyped>(event)) {
@@ -27,12 +29,11 @@ size_t PacedInput::count_fitting() const {
       if (press->down && typed) return i;
       commanded = commanded || press->down;
     } else if (const auto* key = std::get_if<KeyPressed>(&event); key && key->key < Key::count) {
-      const bool command = is_command_modifier(key->key) || edits_text(key->key);
-      if (!command) continue;
-      if (key->down && !key->repeat && pressed[size_t(key->key)]) return i;
-      if (key->down && typed && is_command_modifier(key->key)) return i;
-      pressed[size_t(key->key)] = pressed[size_t(key->key)] || key->down;
-      commanded = true;
+      const bool modifier = is_command_modifier(key->key);
+      if (key->repeat || (!modifier && !edits_text(key->key))) continue;
+      if (changed[size_t(key->key)] || (modifier && key->down && typed)) return i;
+      changed[size_t(key->key)] = true;
+      commanded = commanded || key->down;
     }
   }
   return waiting_.size();
