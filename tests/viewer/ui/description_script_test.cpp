@@ -328,6 +328,7 @@ TEST_CASE("description: values of a body change it in the running world, as its 
   b.type_in("gravity_scale", "0");
   CHECK(ball().gravity_scale == 0);
   const double speed = ball().velocity.y();
+  CHECK(speed < -1);  // it has fallen until now
   REQUIRE(b.rig.app->session().advance(10).ok());
   CHECK(ball().velocity.y() == doctest::Approx(speed));  // from now on
   b.play("wait 3");
