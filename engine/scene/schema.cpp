@@ -25,7 +25,9 @@ class SchemaVisitor final : public StructVisitor {
   }
   void list(const ListRef& values, const Parameter& p) override {
     const Json item = reference(*values.type->item);
-    put(p, {{"anyOf", Json::array({item, Json{{"type", "array"}, {"items", item}}})}});
+    Json several = {{"type", "array"}, {"items", item}};
+    if (values.type->item == &struct_type<DrawnDescription>()) several["minItems"] = 1;
+    put(p, {{"anyOf", Json::array({item, several})}});
   }
   void map(const MapRef& values, const Parameter& p) override;
   void one_of(const VariantRef& value, const Parameter& p) override;

@@ -91,3 +91,24 @@ TEST_CASE("a key is renamed to any text, and the text stays JSON") {
   REQUIRE(edit.rename(path("a"), "b\"c"));
   CHECK(edit.text() == R"({"b\"c": 1})");
 }
+
+TEST_CASE("an item changes places with the next one, and takes the comment behind it along") {
+  const auto swapped = [](const std::string& text, size_t item) {
+    JsonTextEdit edit(text);
+    REQUIRE(edit.swap_with_next(at_index(path("list"), item)));
+    return edit.text();
+  };
+  CHECK(swapped(R"({"list": [1,  [2, 3], 4] })", 0) == R"({"list": [[2, 3],  1, 4] })");
+  CHECK(swapped(R"({"list": [1, 2, /* last */ 3 ]})", 1) == R"({"list": [1, 3, /* last */ 2 ]})");
+  CHECK(swapped("{\"list\": [\n  // three\n  1, // one\n  2\n]}", 0) ==
+        "{\"list\": [\n  // three\n  2,\n  1 // one\n]}");
+  CHECK(swapped("{\"list\": [\n  1,\n  { \"a\": 2 } // two\n]}", 0) ==
+        "{\"list\": [\n  { \"a\": 2 }, // two\n  1\n]}");
+  // Behind a comment nothing may follow on its line.
+  CHECK(swapped("{\"list\": [1, 2 // two\n]}", 0) == "{\"list\": [2, 1 // two\n]}");
+  CHECK(swapped("{\"list\": [1, // one\n 2] }", 0) == "{\"list\": [2, // one\n 1] }");
+  JsonTextEdit edit(R"({"list": [1, 2], "a": { "b": 1, "c": 2 }})");
+  CHECK_FALSE(edit.swap_with_next(at_index(path("list"), 1)));
+  CHECK_FALSE(edit.swap_with_next(at_index(path("a"), 0)));
+  CHECK_FALSE(edit.swap_with_next(path("a.b")));
+}

@@ -381,3 +381,42 @@ TEST_CASE("leaving out: a material of the scene gives its name back to the one o
   CHECK(faults_of(*left) == "");
   CHECK(plain(*left)["bodies"]["a"]["material"] == "steel");
 }
+
+TEST_CASE("moving: an item goes to each place of its list and back, as the list says it") {
+  const std::string text = scene_with(R"("bodies": { "b": { "shapes": [
+    { "type": "sphere", "radius": 1 }, // first
+    { "type": "box", "size": [1, 2, 3] },
+    { "type": "sphere", "radius": 2 }
+  ], "mass": 1 } })");
+  const ScenePath list = ScenePath{} / "bodies" / "b" / "shapes";
+  const auto items = [&](const std::string& of) {
+    return plain(of)["bodies"]["b"]["shapes"].get<std::vector<Json>>();
+  };
+  for (int from = 0; from < 3; ++from)
+    for (int to = 0; to < 3; ++to) {
+      const auto moved = with_moved(text, at_index(list, size_t(from)), to - from);
+      REQUIRE_MESSAGE(moved.ok(), test::why_not(moved));
+      auto expected = items(text);
+      const Json one = expected[size_t(from)];
+      expected.erase(expected.begin() + from);
+      expected.insert(expected.begin() + to, one);
+      CHECK(items(*moved) == expected);
+      CHECK(read_scene(*moved, "").ok());
+      CHECK(*with_moved(*moved, at_index(list, size_t(to)), from - to) == text);
+    }
+  CHECK_FALSE(with_moved(text, at_index(list, 0), -1).ok());
+  CHECK_FALSE(with_moved(text, at_index(list, 2), 1).ok());
+  CHECK_FALSE(with_moved(text, ScenePath{} / "bodies" / "b", 1).ok());
+}
+
+TEST_CASE("reading: nothing in place of the shapes is refused, since they would be drawn") {
+  const auto faults_of = [](const std::string& members) {
+    return all_text(read_scene(scene_with(members), "").faults);
+  };
+  const std::string ball = R"("bodies": { "b": { "shape": { "type": "sphere", "radius": 1 })";
+  CHECK(faults_of(ball + " } }").empty());
+  CHECK(faults_of(ball + R"(, "drawn": [{ "type": "sphere", "radius": 2 }] } })").empty());
+  CHECK(faults_of(ball + R"(, "drawn": [] } })").find("bodies.b.drawn: is empty") !=
+        std::string::npos);
+  CHECK(faults_of(ball + R"(, "look": { "visible": false } } })").empty());
+}

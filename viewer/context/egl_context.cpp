@@ -134,7 +134,9 @@ class EglContext final : public GlContext {
 
   const ContextInfo& info() const override { return info_; }
   Status make_current() override {
-    egl_.bind_api(EGL_OPENGL_API);
+    // EGL does nothing where this context is current already as far as it knows; it does not know
+    // of a context of OSMesa that has taken its place.
+    release();
     if (!egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       return fault("the context cannot be made current without a surface");
     return {};

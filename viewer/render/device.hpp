@@ -177,8 +177,8 @@ class Device {
   virtual void update_buffer(BufferId buffer, std::span<const std::byte> data) = 0;
   virtual TextureId create_texture(TextureFormat format, int width, int height,
                                    std::span<const std::byte> data) = 0;
-  /// Fails with the compiler's log; the place of the error is the pipeline's name. Linking is
-  /// deferred to the first draw: see take_link_failure().
+  /// Fails if the description is malformed. Its shaders are compiled and linked at the first draw:
+  /// see take_link_failure().
   virtual Result<PipelineId> create_pipeline(const PipelineDesc& desc) = 0;
   /// Fails when the size exceeds the limits of the device or its memory.
   virtual Result<TargetId> create_target(const TargetDesc& desc) = 0;
@@ -213,9 +213,9 @@ class Device {
   virtual DrawStats stats() const = 0;
   /// Misuse and driver errors since the last call, as sentences; empty if there were none.
   virtual std::vector<std::string> take_faults() = 0;
-  /// The first failure of linking among the pipelines drawn with since the last call; the place of
-  /// the error is that pipeline's name. Draws with such pipelines are missing from the picture, all
-  /// others are drawn.
+  /// The first failure of compiling or linking among the pipelines drawn with since the last call,
+  /// with the driver's log; the place of the error is that pipeline's name. Draws with such
+  /// pipelines are missing from the picture, all others are drawn.
   virtual Status take_link_failure() = 0;
 };
 

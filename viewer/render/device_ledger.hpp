@@ -81,6 +81,8 @@ class DeviceLedger {
     uint64_t held = 0;  ///< hash of all that decided its present contents; 0: unknown
     unsigned native = 0;
     unsigned colour_storage = 0, depth_storage = 0;  ///< renderbuffers
+    unsigned colour_samples = 0;  ///< texture with all samples, instead of colour_storage
+    int samples = 1;              ///< as many as the driver gave
   };
 
   /// `strict` also checks every index of a draw against the vertex buffer.

@@ -94,18 +94,19 @@ PipelineDesc puff_desc() {
 /// Makes pipelines until one fails; then the rest are skipped.
 class Maker {
  public:
-  Maker(Device& device, const std::filesystem::path& folder) : device_(device), folder_(folder) {}
+  Maker(const Pipelines::Make& make, const std::filesystem::path& folder)
+      : make_(make), sources_(folder) {}
 
   PipelineId make(const char* name, PipelineDesc desc, const char* vertex, const char* fragment) {
     if (!status_) return {};
-    auto v = load_shader(folder_ / vertex);
+    auto v = sources_.load(vertex);
     if (!v) return fail(v.error());
-    auto f = load_shader(folder_ / fragment);
+    auto f = sources_.load(fragment);
     if (!f) return fail(f.error());
     desc.name = name;
     desc.vertex_source = std::move(*v);
     desc.fragment_source = std::move(*f);
-    auto id = device_.create_pipeline(desc);
+    auto id = make_(desc);
     if (!id) return fail(id.error());
     return *id;
   }
@@ -116,8 +117,8 @@ class Maker {
     status_ = e;
     return {};
   }
-  Device& device_;
-  const std::filesystem::path& folder_;
+  const Pipelines::Make& make_;
+  ShaderSources sources_;
   Status status_;
 };
 
@@ -173,9 +174,9 @@ void make_soft(Maker& maker, Pipelines& p) {
 
 }  // namespace
 
-Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path& folder) {
-  Maker maker(device, folder);
-  Pipelines p;
+Status Pipelines::make_all(const Make& make, const std::filesystem::path& folder) {
+  Pipelines& p = *this;
+  Maker maker(make, folder);
   PipelineDesc d;
   for (const size_t fine : {0u, 1u}) {
     for (const size_t patterned : {0u, 1u})
@@ -269,9 +270,17 @@ Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path&
   d = ui_desc();
   d.blend = Blend::none;
   p.place = maker.make("place", d, "ui.vert", "place.frag");
-  if (maker.status()) return p;
-  p.destroy(device);
-  return maker.status().error();
+  return maker.status();
+}
+
+Result<Pipelines> Pipelines::create(Device& device, const std::filesystem::path& folder) {
+  Pipelines p;
+  const Make make = [&](const PipelineDesc& desc) { return device.create_pipeline(desc); };
+  if (Status made = p.make_all(make, folder); !made) {
+    p.destroy(device);
+    return made.error();
+  }
+  return p;
 }
 
 void Pipelines::destroy(Device& device) {

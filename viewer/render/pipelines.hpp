@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 
 namespace tumble {
 
@@ -35,7 +36,11 @@ struct Pipelines {
   PipelineId veil_shade, veil_layer, fluid_depth, narrow_range_x, narrow_range_y, fluid_thickness,
       fluid_surface, smoke, smoke_cover;
 
-  /// Compiles all shaders; on failure the pipelines already made are destroyed.
+  using Make = std::function<Result<PipelineId>(const PipelineDesc&)>;
+  /// Reads all shaders and makes a pipeline of each description, until one fails.
+  Status make_all(const Make& make, const std::filesystem::path& folder);
+  /// On a device, which compiles shaders when they are first drawn with; on failure the pipelines
+  /// already made are destroyed.
   static Result<Pipelines> create(Device& device, const std::filesystem::path& folder);
   void destroy(Device& device);
 };

@@ -14,6 +14,7 @@ struct EditDescription {
     add,      ///< a key, or one more item or name, with a value to begin with
     remove,   ///< with what cannot do without it
     rename,   ///< to `value`, wherever it is named
+    move,     ///< an item, `value` places down ("-1": up)
     declare,  ///< the number becomes one that the scene declares
   };
   ScenePath path;

@@ -240,6 +240,24 @@ Result<std::string> without(const std::string& text, const ScenePath& path,
   return edit.text();
 }
 
+Result<std::string> with_moved(const std::string& text, const ScenePath& path, int places) {
+  const auto tree = tree_of(text);
+  if (!tree) return tree.error();
+  const auto place = place_of(*tree, path);
+  if (!place || !place->node || !place->numbered)
+    return outline_refusal(text_of(path) + " is not there");
+  JsonTextEdit edit(text);
+  ScenePath at = place->in_text;
+  for (; places != 0; places += places < 0 ? 1 : -1) {
+    if (places < 0 && at.back().index.value_or(0) == 0)
+      return outline_refusal(text_of(path) + " is the first already");
+    if (places < 0) --*at.back().index;
+    if (!edit.swap_with_next(at)) return outline_refusal(text_of(path) + " is the last already");
+    if (places > 0) ++*at.back().index;
+  }
+  return edit.text();
+}
+
 std::string free_name(const JsonNode& scene, std::string_view list, std::string_view stem) {
   const JsonNode* all = scene.find(list);
   std::string name(stem);

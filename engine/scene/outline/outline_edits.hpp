@@ -26,6 +26,10 @@ Result<std::string> with_added(const std::string& text, const ScenePath& path);
 Result<std::string> without(const std::string& text, const ScenePath& path,
                             std::vector<TakenAlong>& along);
 
+/// The text with an item of a list, or one of several values, so many places farther down (less
+/// than 0: up). Comments on lines of their own stay.
+Result<std::string> with_moved(const std::string& text, const ScenePath& path, int places);
+
 /// The text in which the number at `path` is one that the scene declares: "parameters" gets it by a
 /// free name after the key, and "$name" stands in its place. Gives the name, too.
 struct Declared {

@@ -2,6 +2,9 @@
 
 #include "engine/core/text.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 namespace tumble {
@@ -180,6 +183,36 @@ bool JsonTextEdit::append(const Path& array, std::string_view value) {
   const size_t next = skip_space(last.end);
   if (text_[next] == ',') text_.erase(next, 1);  // a trailing comma, which some writers add
   text_.insert(last.end, between + item);
+  return true;
+}
+
+JsonTextEdit::Span JsonTextEdit::comment_after(size_t end) const {
+  const size_t next = skip_space(end);
+  const size_t comma = text_[next] == ',' ? next + 1 : end, to = line_end(comma);
+  const size_t begin = std::min(text_.find_first_not_of(" \t", comma), to);
+  const bool comment = text_.compare(begin, 2, "//") == 0;
+  return comment ? Span{comma, to} : Span{comma, comma};
+}
+
+bool JsonTextEdit::swap_with_next(const Path& item) {
+  if (item.empty() || !item.back().index) return false;
+  const auto around = find(item, item.size() - 1);
+  if (!around || text_[around->begin] != '[') return false;
+  const std::vector<Span> all = items(*around);
+  const size_t which = *item.back().index;
+  if (which + 1 >= all.size()) return false;
+  std::array<Span, 4> parts = {all[which], comment_after(all[which].end), all[which + 1],
+                               comment_after(all[which + 1].end)};
+  // A comment would hide what follows it on a line, and stays where not both items end theirs.
+  const auto ends_line = [&](const Span& s) { return blank(s.end, line_end(s.end)); };
+  if (!ends_line(parts[1]) || !ends_line(parts[3]))
+    for (const size_t k : {1, 3}) parts[k].end = parts[k].begin;
+  const auto text = [&](size_t k) {
+    return text_.substr(parts[k].begin, parts[k].end - parts[k].begin);
+  };
+  const std::array<std::string, 4> instead = {text(2), text(3), text(0), text(1)};
+  for (size_t k = 4; k-- > 0;)
+    text_.replace(parts[k].begin, parts[k].end - parts[k].begin, instead[k]);
   return true;
 }
 

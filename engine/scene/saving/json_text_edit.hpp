@@ -30,6 +30,9 @@ class JsonTextEdit {
   bool remove(const Path& path);
   /// Appends an item to an array. False if there is no array.
   bool append(const Path& array, std::string_view value);
+  /// Exchanges an item of an array with the one after it, each with the comment that follows it on
+  /// its line. False if there is none.
+  bool swap_with_next(const Path& item);
   /// Renames the key of a member. False if there is none.
   bool rename(const Path& path, std::string_view key);
 
@@ -49,6 +52,8 @@ class JsonTextEdit {
   std::optional<Span> child(Span parent, const PathStep& step) const;
   /// The value at the first `count` steps of a path.
   std::optional<Span> find(const Path& path, size_t count) const;
+  /// The comment between an item and the end of its line; where it would stand if there is none.
+  Span comment_after(size_t end) const;
   void erase_one(const std::vector<Span>& all, size_t which);
   void add_member(Span object, std::string_view name, std::string_view value);
   size_t line_begin(size_t at) const;

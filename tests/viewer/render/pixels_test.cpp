@@ -4,14 +4,17 @@
 #include "tests/viewer/render/demo_scene.hpp"
 #include "viewer/context/gl_context.hpp"
 #include "viewer/render/builtin_meshes.hpp"
+#include "viewer/render/gl/average.hpp"
 #include "viewer/render/gl/gl_device.hpp"
 #include "viewer/render/null/null_device.hpp"
+#include "viewer/render/pipelines.hpp"
 #include "viewer/render/renderer.hpp"
 #include "viewer/render/resources.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -450,14 +453,116 @@ TEST_CASE("pictures of any size, and thirty renderers one after the other") {
   }
 }
 
-TEST_CASE("a shader that does not compile is an error with the driver's words") {
+TEST_CASE("a shader that does not compile is an error with the driver's words when drawn with") {
   Studio studio("auto");
   PipelineDesc desc;
   desc.name = "broken";
   desc.vertex_source = "#version 330 core\nvoid main() { gl_Position = nothing; }\n";
   desc.fragment_source = "#version 330 core\nvoid main() {}\n";
-  auto pipeline = studio.device->create_pipeline(desc);
-  REQUIRE_FALSE(pipeline.ok());
-  CHECK(pipeline.error().text().find("broken") != std::string::npos);
-  CHECK(pipeline.error().text().find("nothing") != std::string::npos);
+  const auto pipeline = studio.device->create_pipeline(desc);
+  REQUIRE(pipeline.ok());
+  TargetDesc shape;
+  shape.width = shape.height = 8;
+  const auto target = studio.device->create_target(shape);
+  REQUIRE(target.ok());
+  for (int picture = 0; picture < 2; ++picture) {  // it stays one
+    studio.device->begin_frame();
+    studio.device->begin_pass({*target, {}, true});
+    DrawCall call;
+    call.pipeline = *pipeline;
+    call.count = 3;
+    studio.device->draw(call);
+    studio.device->end_pass();
+    const Status drawn = studio.device->take_link_failure();
+    REQUIRE_FALSE(drawn.ok());
+    CHECK(drawn.error().text().find("broken") != std::string::npos);
+    CHECK(drawn.error().text().find("nothing") != std::string::npos);
+  }
+}
+
+TEST_CASE("every shader of the renderer compiles and links, drawn with or not") {
+  Studio studio("auto");
+  const auto functions = GlFunctions::load(*studio.choice.context);
+  REQUIRE(functions.ok());
+  GlPrograms programs(*functions);
+  Pipelines all;
+  const Status made = all.make_all(
+      [&](const PipelineDesc& desc) -> Result<PipelineId> {
+        const Status linked = programs.link(programs.add(desc));
+        CHECK_MESSAGE(linked.ok(), test::why_not(linked));
+        return PipelineId{1};
+      },
+      *resource_path("shaders"));
+  CHECK_MESSAGE(made.ok(), test::why_not(made));
+}
+
+TEST_CASE("samples are averaged as the driver does it") {
+  Studio studio("auto");
+  const auto functions = GlFunctions::load(*studio.choice.context);
+  REQUIRE(functions.ok());
+  GlFunctions gl = *functions;
+  constexpr int size = 64;
+  // Every sample another colour, as far as sixteen triangles over each other make them.
+  PipelineDesc desc;
+  desc.name = "fan";
+  desc.vertex_source = R"(#version 330 core
+flat out vec4 paint;
+void main() {
+  float turn = float(gl_VertexID / 3) * 0.41 + float(gl_VertexID % 3) * 2.1;
+  paint = vec4(fract(float(gl_VertexID / 3) * vec3(0.37, 0.71, 0.23)), fract(turn));
+  gl_Position = vec4(1.3 * cos(turn), 1.3 * sin(turn), 0.0, 1.0);
+}
+)";
+  desc.fragment_source =
+      "#version 330 core\nflat in vec4 paint;\nout vec4 colour;\nvoid main() { colour = paint; }\n";
+  desc.depth_test = DepthTest::none;
+  desc.depth_write = false;
+  desc.cull = Cull::none;
+  GlPrograms programs(gl);
+  GLuint texture = 0, names[2] = {}, plain = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture);
+  gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, GL_RGBA8, size, size, GL_TRUE);
+  gl.GenTextures(1, &plain);
+  gl.BindTexture(GL_TEXTURE_2D, plain);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.GenFramebuffers(2, names);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, names[1]);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, plain, 0);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, names[0]);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, texture,
+                          0);
+  gl.Viewport(0, 0, size, size);
+  gl.Disable(GL_SCISSOR_TEST);
+  gl.ClearColor(0.2f, 0.4f, 0.6f, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  const unsigned fan = programs.add(desc);
+  REQUIRE(programs.link(fan).ok());
+  apply_gl_pipeline(gl, desc, fan);
+  gl.DrawArraysInstanced(GL_TRIANGLES, 0, 48, 1);
+  const auto pixels = [&] {
+    std::vector<uint8_t> out(size_t{4} * size * size);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, names[1]);
+    gl.ReadPixels(0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE, out.data());
+    return out;
+  };
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, names[0]);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, names[1]);
+  gl.BlitFramebuffer(0, 0, size, size, 0, 0, size, size, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  const std::vector<uint8_t> expected = pixels();
+  gl.BindFramebuffer(GL_FRAMEBUFFER, names[1]);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  GlAverage average(gl, programs);
+  const ScissorRect halves[] = {{0, 0, size, size / 2}, {0, size / 2, size, size / 2}};
+  REQUIRE(average.draw(texture, 4, halves).ok());
+  CHECK(pixels() == expected);
+  // Where edges cross, means are neither of the colours.
+  std::set<uint32_t> colours;
+  for (size_t i = 0; i < expected.size(); i += 4)
+    colours.insert(uint32_t(expected[i]) << 16 | uint32_t(expected[i + 1]) << 8 | expected[i + 2]);
+  CHECK(colours.size() > 40);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl.DeleteFramebuffers(2, names);
+  gl.DeleteTextures(1, &texture);
+  gl.DeleteTextures(1, &plain);
 }

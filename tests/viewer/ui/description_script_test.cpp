@@ -307,3 +307,119 @@ TEST_CASE("description: another scene is not opened over a draft without being a
   CHECK_FALSE(b.faulty());
   check_no_faults(*b.device);
 }
+
+TEST_CASE("description: values of a body change it in the running world, as its own panel does") {
+  Described b(
+      with(two_bodies, "\"position\": [0, 2, 0]", "\"gravity_scale\": 1, \"position\": [0, 2, 0]"));
+  REQUIRE(b.rig.app->session().advance(20).ok());
+  b.play("wait 3");
+  const uint64_t now = b.hash();
+  const auto ball = [&] { return *b.world().body_def(b.world().find_body("ball")); };
+  const Pose pose = ball().pose;
+  b.go("bodies.ball.shape");
+  b.type_in("radius", "0.25");
+  CHECK(b.rig.tick() == 20);
+  REQUIRE(ball().shapes.size() == 1);
+  CHECK(ball().shapes[0].shape.radius == 0.25);
+  CHECK(ball().pose.x == pose.x);  // where it has fallen to
+  CHECK(ball().velocity.y() < -1);
+  CHECK(b.saved() == with(b.start, "0.5 }", "0.25 }"));
+  b.go("bodies.ball");
+  b.type_in("gravity_scale", "0");
+  CHECK(ball().gravity_scale == 0);
+  const double speed = ball().velocity.y();
+  CHECK(speed < -1);  // it has fallen until now
+  REQUIRE(b.rig.app->session().advance(10).ok());
+  CHECK(ball().velocity.y() == doctest::Approx(speed));  // from now on
+  b.play("wait 3");
+  for (int i = 0; i < 2; ++i) b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.hash() == now);
+  CHECK(b.saved() == b.start);
+  // How it begins is a matter of the start.
+  b.type_in("position.y", "3");
+  CHECK(b.rig.tick() == 20);
+  CHECK(ball().pose.x.y() == doctest::Approx(pose.x.y() + 1));
+  check_no_faults(*b.device);
+}
+
+TEST_CASE(
+    "description: items of a list change places, in the file and in the choices of the user") {
+  Described b(with(two_bodies, R"("shape": { "type": "sphere", "radius": 0.5 })",
+                   R"("shapes": [
+      { "type": "sphere", "radius": 0.5 }, // low
+      { "type": "sphere", "radius": 0.2, "position": [0, 0.5, 0] }
+    ])"));
+  b.go("bodies.ball.shapes");
+  CHECK_FALSE(b.rig.app->locate("description.2.up").has_value());
+  b.play("click description.0.up\nwait 4");  // nothing is above it
+  CHECK(b.saved() == b.start);
+  b.play("click description.0.down\nwait 4");
+  const std::string expected = with(b.start, R"({ "type": "sphere", "radius": 0.5 }, // low
+      { "type": "sphere", "radius": 0.2, "position": [0, 0.5, 0] }
+)",
+                                    R"({ "type": "sphere", "radius": 0.2, "position": [0, 0.5, 0] },
+      { "type": "sphere", "radius": 0.5 } // low
+)");
+  CHECK(b.saved() == expected);
+  b.play("click description.1.up\nwait 4");
+  CHECK(b.saved() == b.start);
+  b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.saved() == expected);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: keys and text that come in one slow picture keep their order") {
+  Described b(two_bodies);
+  b.go("bodies.ball.shape");
+  b.play("click description.radius\nwait 2");
+  std::vector<InputEvent> events;
+  const auto tap = [&](Key key) {
+    events.push_back(KeyPressed{key, true});
+    events.push_back(KeyPressed{key, false});
+  };
+  const auto write = [&](std::string_view text) {
+    for (const char c : text) {
+      events.push_back(KeyPressed{Key(c), true});
+      events.push_back(TextTyped{uint32_t(c)});
+      events.push_back(KeyPressed{Key(c), false});
+    }
+  };
+  events.push_back(KeyPressed{Key::control, true});
+  tap(Key::a);
+  events.push_back(KeyPressed{Key::control, false});
+  write("0.73");
+  tap(Key::backspace);
+  tap(Key::backspace);
+  write("25");
+  tap(Key::left);
+  write("1");
+  tap(Key::enter);
+  b.rig.frame(events);
+  b.play("wait 20");
+  CHECK(b.saved() == with(b.start, "0.5 }", "0.215 }"));
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: long numbers get a line of their own, and all of a text is told") {
+  Described b(
+      with(two_bodies, "\"ball\": { \"shape\"",
+           "\"ball\": { \"look\": { \"label\": \"a label of very many letters, which no field "
+           "of this panel can show whole\" }, \"shape\""));
+  b.go("bodies.ball");
+  const auto place = [&](const std::string& mark) {
+    const auto r = b.rig.app->ui().widgets().find("description." + mark);
+    REQUIRE(r != b.rig.app->ui().widgets().end());
+    return r->second;
+  };
+  const float beside = place("position.x").width, height = place("position.x").y;
+  CHECK(place("position.remove").y == doctest::Approx(height).epsilon(0.02));
+  b.type_in("position.x", "-12.345678");
+  CHECK(place("position.x").width > 1.5f * beside);
+  CHECK(place("position.x").y > height + 10);  // under its name
+  CHECK(place("position.remove").y > height + 10);
+  CHECK(place("position.remove").x > place("position.z").x);
+  b.go("bodies.ball.look");
+  b.play("move description.label\nwait 40");
+  CHECK(b.rig.app->ui().widgets().at("tooltip").height > 45);  // three lines: two of text, and help
+  check_no_faults(*b.device);
+}

@@ -87,6 +87,9 @@ Result<DescriptionDesk::Changed> carried_out(const std::string& text, const Edit
     case How::remove:
       done = without(text, edit.path, out.along);
       break;
+    case How::move:
+      done = with_moved(text, edit.path, std::stoi(edit.value));
+      break;
     case How::rename:
       return renamed_place(text, edit);
     case How::declare: {

@@ -270,10 +270,12 @@ UiModel Application::model() const {
   return m;
 }
 
-Status Application::frame(std::span<const InputEvent> events, double dt, const Picture& picture) {
+Status Application::frame(std::span<const InputEvent> input, double dt, const Picture& picture) {
   canvas_.pace().begin_picture(dt, picture.display_period);
   if (host_.set_scale(picture.scale)) canvas_.renderer().set_font(host_.atlas());
   if (picture.width < 1 || picture.height < 1) return {};  // minimised
+  paced_input_.add(input);
+  const std::vector<InputEvent> events = paced_input_.take();
   layout_.size = picture;
   host_.set_theme(ui_.theme);
   keep_preferences();

@@ -22,6 +22,7 @@
 #include "viewer/app/window/scene_opening.hpp"
 #include "viewer/app/window/screenshots.hpp"
 #include "viewer/app/window/thumbnails.hpp"
+#include "viewer/interact/paced_input.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
 #include "viewer/ui/shell.hpp"
@@ -67,9 +68,9 @@ class Application {
                                                      OpenedScene scene);
   ~Application();
 
-  /// Processes input and draws one picture: `events` (positions in UI units), `dt` seconds after
+  /// Processes input and draws one picture: `input` (positions in UI units), `dt` seconds after
   /// the last.
-  Status frame(std::span<const InputEvent> events, double dt, const Picture& picture);
+  Status frame(std::span<const InputEvent> input, double dt, const Picture& picture);
   /// Shows the last picture in the device's window.
   void present() { canvas_.renderer().present(); }
   /// To be called when the contents of the graphics memory may be lost.
@@ -193,6 +194,8 @@ class Application {
   void edit_description(const EditDescription& edit);
   bool describe_live(const std::string& before, const std::string& after, const ScenePath& path,
                      const std::string& what);
+  bool describe_body_live(const std::string& before, const std::string& after,
+                          const ScenePath& path, const std::string& what);
   void finish_description(const Status& opened);
   void edit_joint(const EditJoint& edit);
   void take_mesh_modes();
@@ -306,6 +309,7 @@ class Application {
   QuestionDesk question_;
   Pointer pointer_;
   Hand hand_;
+  PacedInput paced_input_;
   std::vector<InputEvent> early_text_;  ///< typed before the search field had the keyboard
   bool searched_ = false;               ///< a search for a quantity was active
   Thumbnails thumbnails_;

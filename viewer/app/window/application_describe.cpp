@@ -1,4 +1,5 @@
 // What the scene's file says, changed value by value.
+#include "engine/scene/build/body_defs.hpp"
 #include "engine/scene/build/live_parts.hpp"
 #include "engine/scene/outline/outline_edits.hpp"
 #include "engine/scene/reader.hpp"
@@ -25,9 +26,48 @@ bool says_same(const std::string& text, const std::filesystem::path& file, const
   return saved && saved->left_out.empty() && plain(saved->text) == plain(wanted);
 }
 
+/// A body that is one and needs no file of a mesh, as the scene describes it.
+std::optional<BodyDef> described_body(const SceneDescription& scene, const std::string& name) {
+  const BodyDescription* body = scene.bodies.find(name);
+  if (!body || !body->repeat.empty()) return std::nullopt;
+  std::vector<std::string> warnings;
+  const FaultSink none = [](const std::string&, const std::string&) {};
+  const SceneMeshes no_meshes({}, none, warnings);
+  auto defs = body_defs(scene, name, *body, no_meshes, none, warnings);
+  return defs.size() == 1 ? std::optional(std::move(defs[0])) : std::nullopt;
+}
+
+/// Whether a body begins at the same place with the same motion.
+bool begin_alike(const BodyDef& a, const BodyDef& b) {
+  return a.pose.x == b.pose.x && a.pose.q.coeffs() == b.pose.q.coeffs() &&
+         a.velocity == b.velocity && a.angular_velocity == b.angular_velocity &&
+         a.starts_asleep == b.starts_asleep && !a.course && !b.course;
+}
+
+/// Gives a body of the running world the values in which two descriptions differ, one of whose keys
+/// was changed. Its motion, which begins alike in both, goes on.
+void carry_over(BodyDef& def, const BodyDef& before, const BodyDef& after, std::string_view key) {
+  const auto carry = [&](auto... members) {
+    ((before.*members == after.*members ? void() : void(def.*members = after.*members)), ...);
+  };
+  carry(&BodyDef::type, &BodyDef::mass, &BodyDef::inertia, &BodyDef::products, &BodyDef::centre,
+        &BodyDef::group, &BodyDef::gravity_scale, &BodyDef::fluid_friction, &BodyDef::can_sleep,
+        &BodyDef::precise, &BodyDef::hull_mass);
+  if (key == "shape" || key == "shapes" || key == "material" || key == "density")
+    def.shapes = after.shapes;
+  if (key == "colour" || key == "look") def.look = after.look;
+}
+
+/// Where an item stands after one has been moved.
+size_t place_after(size_t item, size_t from, size_t to) {
+  if (item == from) return to;
+  if (from < item && item <= to) return item - 1;
+  return to <= item && item < from ? item + 1 : item;
+}
+
 /// A number that was chosen here ("parameters.gap=3") would go on hiding the one that the file says
-/// now, and follows what it is a number of to another name. Of a parameter that is written out the
-/// choice is its value.
+/// now, and follows what it is a number of to another name or place. Of a parameter that is written
+/// out the choice is its value.
 void keep_up_choices(std::vector<std::string>& chosen, const EditDescription& edit) {
   const std::string at = text_of(edit.path);
   if (edit.how == EditDescription::How::rename) {
@@ -35,6 +75,16 @@ void keep_up_choices(std::vector<std::string>& chosen, const EditDescription& ed
     for (std::string& one : chosen)
       if (one.starts_with(at) && one.find_first_of("=.[", at.size()) == at.size())
         one.replace(0, at.size(), to);
+    return;
+  }
+  if (edit.how == EditDescription::How::move) {
+    const std::string list = text_of(outer_path(edit.path)) + "[";
+    const size_t from = *edit.path.back().index, to = size_t(int(from) + std::stoi(edit.value));
+    for (std::string& one : chosen) {
+      if (!one.starts_with(list)) continue;
+      const size_t end = one.find(']', list.size()), now = std::stoul(one.substr(list.size()));
+      one.replace(list.size(), end - list.size(), std::to_string(place_after(now, from, to)));
+    }
     return;
   }
   std::erase_if(chosen, [&](const std::string& one) {
@@ -87,6 +137,7 @@ void Application::edit_description(const EditDescription& edit) {
 bool Application::describe_live(const std::string& before, const std::string& after,
                                 const ScenePath& path, const std::string& what) {
   const std::string list = path.empty() ? std::string() : path[0].key;
+  if (list == "bodies") return describe_body_live(before, after, path, what);
   const bool settings = list == "settings";
   constexpr std::string_view parts[] = {"emitters", "sensors", "forces", "particles"};
   if (!settings && (path.size() < 2 || std::ranges::find(parts, list) == std::end(parts)))
@@ -111,6 +162,28 @@ bool Application::describe_live(const std::string& before, const std::string& af
   if (!part || !says_same(before, scene_.file.path, RemovedPart{name, *part}, after)) return false;
   remove_part({name, *part});
   return true;
+}
+
+/// The same for a value of one body, unless it says where and how it begins.
+bool Application::describe_body_live(const std::string& before, const std::string& after,
+                                     const ScenePath& path, const std::string& what) {
+  if (path.size() < 3 || path[2].key == "drawn") return false;
+  const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.wish.overrides});
+  const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.wish.overrides});
+  if (!old.ok() || !now.ok()) return false;
+  const std::string& name = path[1].key;
+  const auto was = described_body(old.scene, name), is = described_body(now.scene, name);
+  if (!was || !is || !begin_alike(*was, *is)) return false;
+  if (!says_same(before, scene_.file.path, ChangedBody{name, *was, *is}, after)) return false;
+  const Frame& frame = world_.frame();
+  for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
+    if (frame.body(slot).id.is_null() || frame.info(slot).name != name) continue;
+    edit_body({frame.body(slot).id, what, [was = *was, is = *is, key = path[2].key](BodyDef& def) {
+                 carry_over(def, was, is, key);
+               }});
+    return true;
+  }
+  return false;
 }
 
 /// The scene with what was changed in its description is there, or cannot be.

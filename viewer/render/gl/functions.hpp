@@ -67,6 +67,7 @@ namespace tumble {
   X(Scissor, SCISSOR)                                                 \
   X(ShaderSource, SHADERSOURCE)                                       \
   X(TexImage2D, TEXIMAGE2D)                                           \
+  X(TexImage2DMultisample, TEXIMAGE2DMULTISAMPLE)                     \
   X(TexParameteri, TEXPARAMETERI)                                     \
   X(Uniform1i, UNIFORM1I)                                             \
   X(UniformBlockBinding, UNIFORMBLOCKBINDING)                         \

@@ -1,12 +1,12 @@
 #include "viewer/render/gl/gl_device.hpp"
 
 #include "viewer/render/device_ledger.hpp"
+#include "viewer/render/gl/average.hpp"
 #include "viewer/render/gl/functions.hpp"
 #include "viewer/render/gl/program.hpp"
 #include "viewer/render/gl/target.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ GLenum target_of(BufferUse use) {
 class GlDevice final : public Device {
  public:
   GlDevice(const GlFunctions& functions, const ContextInfo& context)
-      : gl_(functions), programs_(gl_), ledger_(false) {
+      : gl_(functions), programs_(gl_), average_(gl_, programs_), ledger_(false) {
     info_.name = "gl";
     info_.renderer = context.renderer;
     info_.version = context.version;
@@ -102,7 +102,10 @@ class GlDevice final : public Device {
   }
   void resolve(TargetId from, TargetId to) override {
     if (!ledger_.resolve(from, to) || ledger_.kept()) return;
-    blit(from, ledger_.find(to)->native, GL_COLOR_BUFFER_BIT);
+    const TargetDesc& d = ledger_.find(from)->desc;
+    const ScissorRect whole{0, 0, d.width, d.height};
+    copy_colour(from, ledger_.find(to)->native, std::span(&whole, 1));
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   }
   void read_pixels(TargetId target, std::span<uint8_t> rgba) override;
   void present(TargetId target) override {
@@ -147,6 +150,20 @@ class GlDevice final : public Device {
     gl_.BlitFramebuffer(x0, y0, x1, y1, x0, y0, x1, y1, what, GL_NEAREST);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   }
+  /// Copies the colour of these parts (pixels from the top left), samples averaged.
+  void copy_colour(TargetId from, GLuint to, std::span<const ScissorRect> parts) {
+    const DeviceLedger::Target& t = *ledger_.find(from);
+    if (!t.colour_samples) {
+      for (const ScissorRect& part : parts) blit(from, to, GL_COLOR_BUFFER_BIT, part);
+      return;
+    }
+    std::vector<ScissorRect> upright(parts.begin(), parts.end());
+    for (ScissorRect& p : upright) p.y = t.desc.height - p.y - p.height;
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, to);
+    gl_.Viewport(0, 0, t.desc.width, t.desc.height);
+    if (Status done = average_.draw(t.colour_samples, t.samples, upright); !done && link_failure_)
+      link_failure_ = std::move(done);
+  }
   void set_scissor(const std::optional<ScissorRect>& scissor) {
     if (!scissor) return gl_.Disable(GL_SCISSOR_TEST);
     gl_.Enable(GL_SCISSOR_TEST);
@@ -156,6 +173,7 @@ class GlDevice final : public Device {
 
   GlFunctions gl_;
   GlPrograms programs_;
+  GlAverage average_;
   DeviceLedger ledger_;
   DeviceInfo info_;
   GLuint vertex_array_ = 0;
@@ -164,7 +182,6 @@ class GlDevice final : public Device {
   std::vector<DrawCall> put_off_;  ///< calls of the open pass
   Status link_failure_;            ///< the first since take_link_failure() was called
   int pass_height_ = 0;
-  std::vector<uint8_t> rows_;  ///< scratch of a read-back, bottom row first
 };
 
 TextureId GlDevice::create_texture(TextureFormat format, int width, int height,
@@ -188,14 +205,9 @@ TextureId GlDevice::create_texture(TextureFormat format, int width, int height,
 }
 
 Result<PipelineId> GlDevice::create_pipeline(const PipelineDesc& desc) {
-  auto program = programs_.add(desc);
-  if (!program) return program.error();
   const PipelineId id = ledger_.add_pipeline(desc);
-  if (!id) {
-    programs_.release(*program);
-    return Error{ErrorCode::invalid_argument, "malformed pipeline", desc.name, ""};
-  }
-  ledger_.find(id)->native = *program;
+  if (!id) return Error{ErrorCode::invalid_argument, "malformed pipeline", desc.name, ""};
+  ledger_.find(id)->native = programs_.add(desc);
   return id;
 }
 
@@ -209,7 +221,7 @@ Result<TargetId> GlDevice::create_target(const TargetDesc& desc) {
   if (!id) return Error{ErrorCode::invalid_argument, "bad target size", "", "1 to 16384 pixels"};
   draw_put_off();
   gl_.ActiveTexture(GL_TEXTURE0);
-  Status made = make_gl_target(gl_, ledger_, id, info_.max_samples);
+  Status made = make_gl_target(gl_, ledger_, id, info_.max_samples, info_.software);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, open_ && begun_ ? ledger_.find(pass_.target)->native : 0);
   if (made) return id;
   destroy(id);
@@ -242,8 +254,7 @@ void GlDevice::begin_put_off() {
     clear |= GL_DEPTH_BUFFER_BIT;
   }
   if (clear) gl_.Clear(clear);
-  for (const ScissorRect& part : pass.averaged_parts)
-    blit(pass.averages, t.native, GL_COLOR_BUFFER_BIT, part);
+  if (pass.averages) copy_colour(pass.averages, t.native, pass.averaged_parts);
   for (const ScissorRect& part : pass.depth_parts)
     blit(pass.depth_of, t.native, GL_DEPTH_BUFFER_BIT, part);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, t.native);
@@ -296,13 +307,13 @@ void GlDevice::draw_now(const DrawCall& call) {
 void GlDevice::read_pixels(TargetId target, std::span<uint8_t> rgba) {
   if (!ledger_.read_pixels(target, rgba.size())) return;
   const DeviceLedger::Target& t = *ledger_.find(target);
-  rows_.resize(rgba.size());
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, t.native);
-  gl_.ReadPixels(0, 0, t.desc.width, t.desc.height, GL_RGBA, GL_UNSIGNED_BYTE, rows_.data());
+  gl_.ReadPixels(0, 0, t.desc.width, t.desc.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   const size_t row = size_t(t.desc.width) * 4;
-  for (size_t y = 0, n = size_t(t.desc.height); y < n; ++y)
-    std::memcpy(rgba.data() + y * row, rows_.data() + (n - 1 - y) * row, row);
+  for (size_t y = 0, n = size_t(t.desc.height); y < n / 2; ++y)
+    std::swap_ranges(rgba.data() + y * row, rgba.data() + (y + 1) * row,
+                     rgba.data() + (n - 1 - y) * row);
 }
 
 std::vector<std::string> GlDevice::take_faults() {

@@ -71,44 +71,45 @@ Result<GLuint> GlPrograms::shader(GLenum kind, const std::string& source,
   return made;
 }
 
-Result<unsigned> GlPrograms::add(const PipelineDesc& desc) {
-  auto vertex = shader(GL_VERTEX_SHADER, desc.vertex_source, desc.name + " (vertex)");
-  if (!vertex) return vertex.error();
-  auto fragment = shader(GL_FRAGMENT_SHADER, desc.fragment_source, desc.name + " (fragment)");
-  if (!fragment) return fragment.error();
-  std::string key = std::to_string(*vertex) + " " + std::to_string(*fragment);
-  for (const auto* names : {&desc.textures, &desc.uniform_blocks}) {
-    key += ";";
-    for (const std::string& name : *names) key += " " + name;
-  }
+unsigned GlPrograms::add(const PipelineDesc& desc) {
   for (auto& [name, program] : programs_) {
-    if (program.key != key) continue;
+    if (program.vertex_source != desc.vertex_source ||
+        program.fragment_source != desc.fragment_source || program.textures != desc.textures ||
+        program.uniform_blocks != desc.uniform_blocks)
+      continue;
     ++program.users;
     return name;
   }
   const GLuint name = gl_.CreateProgram();
+  programs_[name] = {desc.name,     desc.vertex_source,  desc.fragment_source,
+                     desc.textures, desc.uniform_blocks, 1};
+  return name;
+}
+
+Status GlPrograms::build(unsigned name, const Program& program) {
+  auto vertex = shader(GL_VERTEX_SHADER, program.vertex_source, program.name + " (vertex)");
+  if (!vertex) return vertex.error();
+  auto fragment = shader(GL_FRAGMENT_SHADER, program.fragment_source, program.name + " (fragment)");
+  if (!fragment) return fragment.error();
   gl_.AttachShader(name, *vertex);
   gl_.AttachShader(name, *fragment);
-  programs_[name] = {std::move(key), desc.name, desc.textures, desc.uniform_blocks, 1, false};
-  return name;
+  gl_.LinkProgram(name);
+  GLint good = 0;
+  gl_.GetProgramiv(name, GL_LINK_STATUS, &good);
+  if (good) return {};
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  gl_.GetProgramInfoLog(name, GLsizei(log.size()), &length, log.data());
+  log.resize(size_t(length));
+  return Error{ErrorCode::parse, "shaders do not link: " + log, program.name,
+               "update the driver, or try another --context"};
 }
 
 Status GlPrograms::link(unsigned name) {
   Program& program = programs_.at(name);
-  if (program.linked) return {};
-  if (program.failure) return *program.failure;
-  gl_.LinkProgram(name);
-  GLint good = 0;
-  gl_.GetProgramiv(name, GL_LINK_STATUS, &good);
-  if (!good) {
-    std::string log(4096, '\0');
-    GLsizei length = 0;
-    gl_.GetProgramInfoLog(name, GLsizei(log.size()), &length, log.data());
-    log.resize(size_t(length));
-    program.failure = Error{ErrorCode::parse, "shaders do not link: " + log, program.name,
-                            "update the driver, or try another --context"};
-    return *program.failure;
-  }
+  if (program.linked) return *program.linked;
+  program.linked = build(name, program);
+  if (!*program.linked) return *program.linked;
   gl_.UseProgram(name);
   for (size_t i = 0; i < program.textures.size(); ++i)
     gl_.Uniform1i(gl_.GetUniformLocation(name, program.textures[i].c_str()), GLint(i));
@@ -116,7 +117,6 @@ Status GlPrograms::link(unsigned name) {
     const GLuint block = gl_.GetUniformBlockIndex(name, program.uniform_blocks[i].c_str());
     if (block != GL_INVALID_INDEX) gl_.UniformBlockBinding(name, block, GLuint(i));
   }
-  program.linked = true;
   return {};
 }
 

@@ -10,8 +10,8 @@
 
 namespace tumble {
 
-/// The programs of a device. Pipelines of the same sources share one. A program is linked at its
-/// first draw, because linking takes most of the start-up time and few scenes need all programs.
+/// The programs of a device. Pipelines of the same sources share one. A program is compiled and
+/// linked at its first draw, because no picture needs all of them.
 class GlPrograms {
  public:
   explicit GlPrograms(const GlFunctions& gl) : gl_(gl) {}
@@ -19,23 +19,23 @@ class GlPrograms {
   GlPrograms(const GlPrograms&) = delete;
   GlPrograms& operator=(const GlPrograms&) = delete;
 
-  /// Compiles shaders that are new. Returns the program's name (handle); fails with the driver's
-  /// log.
-  Result<unsigned> add(const PipelineDesc& desc);
-  /// Links, and binds samplers to units and uniform blocks to binding points in the order of the
-  /// description. Later calls only return the outcome of the first.
+  /// Returns the program's name (handle).
+  unsigned add(const PipelineDesc& desc);
+  /// Compiles shaders that are new, links, and binds samplers to units and uniform blocks to
+  /// binding points in the order of the description. Fails with the driver's log. Later calls only
+  /// return the outcome of the first.
   Status link(unsigned program);
   /// To be called once for each add().
   void release(unsigned program);
 
  private:
   struct Program {
-    std::string key, name;
+    std::string name, vertex_source, fragment_source;
     std::vector<std::string> textures, uniform_blocks;
     int users = 0;
-    bool linked = false;
-    std::optional<Error> failure{};  ///< of linking
+    std::optional<Status> linked{};  ///< empty: not tried yet
   };
+  Status build(unsigned name, const Program& program);
   Result<GLuint> shader(GLenum kind, const std::string& source, const std::string& place);
 
   const GlFunctions& gl_;

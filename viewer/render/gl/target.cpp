@@ -52,8 +52,18 @@ ColourFormat format_of(ColourAttachment colour) {
   return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 }
 
+/// Several samples, which a shader can read.
+void attach_samples(const GlFunctions& gl, DeviceLedger::Target& t, GLenum internal) {
+  gl.GenTextures(1, &t.colour_samples);
+  gl.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, t.colour_samples);
+  gl.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, t.samples, internal, t.desc.width,
+                           t.desc.height, GL_TRUE);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
+                          t.colour_samples, 0);
+}
+
 void attach_colour(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Target& t,
-                   int samples) {
+                   bool samples_are_read) {
   const TargetDesc& d = t.desc;
   if (d.colour == ColourAttachment::none) {
     gl.DrawBuffer(GL_NONE);
@@ -61,8 +71,10 @@ void attach_colour(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Ta
     return;
   }
   const ColourFormat f = format_of(d.colour);
+  if (!t.colour && samples_are_read && t.samples > 1)
+    return attach_samples(gl, t, GLenum(f.internal));
   if (!t.colour) {
-    t.colour_storage = make_storage(gl, d, GLenum(f.internal), samples);
+    t.colour_storage = make_storage(gl, d, GLenum(f.internal), t.samples);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                t.colour_storage);
     return;
@@ -73,12 +85,11 @@ void attach_colour(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Ta
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
 }
 
-void attach_depth(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Target& t,
-                  int samples) {
+void attach_depth(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Target& t) {
   const TargetDesc& d = t.desc;
   if (d.depth == DepthAttachment::none) return;
   if (d.depth == DepthAttachment::buffer) {
-    t.depth_storage = make_storage(gl, d, GL_DEPTH_COMPONENT24, samples);
+    t.depth_storage = make_storage(gl, d, GL_DEPTH_COMPONENT24, t.samples);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                                t.depth_storage);
     return;
@@ -97,19 +108,20 @@ void attach_depth(const GlFunctions& gl, DeviceLedger& ledger, DeviceLedger::Tar
 
 }  // namespace
 
-Status make_gl_target(const GlFunctions& gl, DeviceLedger& ledger, TargetId id, int max_samples) {
+Status make_gl_target(const GlFunctions& gl, DeviceLedger& ledger, TargetId id, int max_samples,
+                      bool samples_are_read) {
   DeviceLedger::Target& t = *ledger.find(id);
-  const int samples = std::min(t.desc.samples, max_samples);
+  t.samples = std::min(t.desc.samples, max_samples);
   gl.GenFramebuffers(1, &t.native);
   gl.BindFramebuffer(GL_FRAMEBUFFER, t.native);
-  attach_colour(gl, ledger, t, samples);
-  attach_depth(gl, ledger, t, samples);
+  attach_colour(gl, ledger, t, samples_are_read);
+  attach_depth(gl, ledger, t);
   const GLenum state = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
   const GLenum error = gl.GetError();
   if (state == GL_FRAMEBUFFER_COMPLETE && error != GL_OUT_OF_MEMORY) return {};
   return Error{ErrorCode::unsupported,
                fmt::format("the driver makes no {} x {} target with {} samples (0x{:X}, 0x{:X})",
-                           t.desc.width, t.desc.height, samples, state, error),
+                           t.desc.width, t.desc.height, t.samples, state, error),
                "", "ask for a smaller picture"};
 }
 
@@ -117,6 +129,7 @@ void release_gl_target(const GlFunctions& gl, DeviceLedger& ledger, TargetId id)
   DeviceLedger::Target& t = *ledger.find(id);
   for (const TextureId texture : {t.colour, t.depth})
     if (const DeviceLedger::Texture* x = ledger.find(texture)) gl.DeleteTextures(1, &x->native);
+  if (t.colour_samples) gl.DeleteTextures(1, &t.colour_samples);
   if (t.colour_storage) gl.DeleteRenderbuffers(1, &t.colour_storage);
   if (t.depth_storage) gl.DeleteRenderbuffers(1, &t.depth_storage);
   gl.DeleteFramebuffers(1, &t.native);

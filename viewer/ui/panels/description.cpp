@@ -17,6 +17,7 @@ namespace {
 using How = EditDescription::How;
 
 constexpr float remove_width = 24;  ///< of the button behind each value
+constexpr float move_width = 20;    ///< of each that moves an item of a list
 constexpr float key_share = 0.42f;  ///< of a line, that the key takes
 
 std::string description_mark(const Member& what) {
@@ -40,6 +41,24 @@ std::string help_of(const Member& what) {
   return range.empty() ? what.doc : what.doc.empty() ? range : what.doc + "; " + range;
 }
 
+/// Whether all of a value can be seen in a field of this width.
+bool fits(const std::string& value, float width) {
+  return ImGui::CalcTextSize(value.c_str()).x <= width - 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+/// Long text in lines of about this many letters, broken at blanks.
+std::string in_lines(std::string text) {
+  constexpr size_t longest = 60;
+  for (size_t line = 0; text.size() - line > longest;) {
+    size_t blank = text.rfind(' ', line + longest);
+    if (blank == std::string::npos || blank <= line) blank = text.find(' ', line + longest);
+    if (blank == std::string::npos) break;
+    text[blank] = '\n';
+    line = blank + 1;
+  }
+  return text;
+}
+
 /// The fields of one place of the scene.
 class DescriptionForm {
  public:
@@ -57,6 +76,7 @@ class DescriptionForm {
   void set(const ScenePath& path, const Member& what, std::string_view typed);
   void label(const OutlineKey& key);
   bool typed(const std::string& mark, std::string now, float width, std::string& out);
+  void hint(const Member& what, const std::string& value, float width);
   void scalar(const OutlineKey& key, float width);
   void numbers(const OutlineKey& key, float width);
   void truth(const OutlineKey& key);
@@ -66,6 +86,14 @@ class DescriptionForm {
   void parts(const OutlineKey& key);
   void into(const OutlineKey& key);
   void remove(const OutlineKey& key);
+  void move(const OutlineKey& key);
+  /// Whether its items can be put in another order.
+  bool ordered() const {
+    return outline_.what.kind != MemberKind::object && outline_.what.kind != MemberKind::map &&
+           outline_.keys.size() > 1;
+  }
+  /// Of the buttons behind each value.
+  float tail_width() const { return remove_width + (ordered() ? 2 * move_width : 0); }
   void declare(const OutlineKey& key);
 
   PanelContext& context_;
@@ -106,12 +134,18 @@ void DescriptionForm::label(const OutlineKey& key) {
   ImGui::SameLine(x + width * key_share);
 }
 
+/// Over a field: what it means, and all of its value where the field is too short for that.
+void DescriptionForm::hint(const Member& what, const std::string& value, float width) {
+  std::string words = help_of(what);
+  if (!fits(value, width)) words = in_lines(value) + (words.empty() ? "" : "\n" + words);
+  tooltip_with_key(context_, words, {});
+}
+
 void DescriptionForm::scalar(const OutlineKey& key, float width) {
-  const std::string mark = description_mark(key.what);
+  const std::string mark = description_mark(key.what), now = shown_value(key.text);
   std::string text;
-  if (typed(mark, shown_value(key.text), width, text))
-    set(below(outline_.path, key.what), key.what, text);
-  tooltip_with_key(context_, help_of(key.what), {});
+  if (typed(mark, now, width, text)) set(below(outline_.path, key.what), key.what, text);
+  hint(key.what, now, width);
 }
 
 /// Numbers beside each other, each of which may be an expression.
@@ -122,14 +156,23 @@ void DescriptionForm::numbers(const OutlineKey& key, float width) {
     return scalar(key, width);
   Member number = key.what;
   number.kind = MemberKind::number;
-  const float each = (width - 3 * float(key.what.size - 1)) / float(key.what.size);
-  for (size_t k = 0; k < key.what.size; ++k) {
+  std::vector<std::string> values;
+  for (const JsonNode& item : now->items) values.push_back(shown_value(one_line(item)));
+  const auto each_of = [&](float all) {
+    return (all - 3 * float(values.size() - 1)) / float(values.size());
+  };
+  // Beside their name there is room for short ones only; longer ones get a line of their own.
+  if (!std::ranges::all_of(values, [&](const auto& v) { return fits(v, each_of(width)); })) {
+    ImGui::NewLine();
+    width = ImGui::GetContentRegionAvail().x - tail_width() - 2;
+  }
+  for (size_t k = 0; k < values.size(); ++k) {
     if (k > 0) ImGui::SameLine(0, 3);
     const std::string mark = fmt::format("{}.{}", description_mark(key.what), "xyzw"[k]);
     std::string text;
-    if (typed(mark, shown_value(one_line(now->items[k])), each, text))
+    if (typed(mark, values[k], each_of(width), text))
       set(at_index(below(outline_.path, key.what), k), number, text);
-    tooltip_with_key(context_, help_of(key.what), {});
+    hint(key.what, values[k], each_of(width));
   }
 }
 
@@ -190,7 +233,7 @@ void DescriptionForm::swatch(const OutlineKey& key) {
 /// Something with keys of its own: a line that leads to it.
 void DescriptionForm::parts(const OutlineKey& key) {
   const std::string mark = description_mark(key.what);
-  const float width = ImGui::GetContentRegionAvail().x - remove_width;
+  const float width = ImGui::GetContentRegionAvail().x - tail_width();
   const ImVec2 at = ImGui::GetCursorPos();
   if (ImGui::Selectable(("##" + mark).c_str(), false, 0, ImVec2(width, ImGui::GetFrameHeight())))
     context_.state.described = below(outline_.path, key.what);
@@ -216,7 +259,31 @@ void DescriptionForm::into(const OutlineKey& key) {
   tooltip_with_key(context_, "its name and what else can be said of it", {});
 }
 
+/// Up and down among the items of a list.
+void DescriptionForm::move(const OutlineKey& key) {
+  const std::string mark = description_mark(key.what);
+  const std::pair<const char*, bool> ways[] = {{"up", &key != &outline_.keys.front()},
+                                               {"down", &key != &outline_.keys.back()}};
+  ImGui::PushID(mark.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Button, 0);
+  for (const auto& [way, possible] : ways) {
+    const bool up = way == ways[0].first;
+    const ImVec2 next(ImGui::GetCursorPosX() + move_width, ImGui::GetCursorPosY());
+    ImGui::BeginDisabled(!possible);
+    if (ImGui::ArrowButton(way, up ? ImGuiDir_Up : ImGuiDir_Down))
+      ask(key.what, How::move, up ? "-1" : "1");
+    ImGui::EndDisabled();
+    context_.host.mark(fmt::format("{}.{}", mark, way));
+    tooltip_with_key(context_, up ? "before the one above it" : "behind the one below it", {});
+    ImGui::SameLine();
+    ImGui::SetCursorPos(next);
+  }
+  ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
 void DescriptionForm::remove(const OutlineKey& key) {
+  if (ordered()) move(key);
   const bool stays = key.what.required && outline_.what.kind == MemberKind::object;
   if (stays) return ImGui::Dummy(ImVec2(remove_width, 0));
   ImGui::PushStyleColor(ImGuiCol_Button, 0);
@@ -244,11 +311,11 @@ void DescriptionForm::row(const OutlineKey& key) {
   const Member& what = key.what;
   if (what.has_parts() && (what.kind != MemberKind::object || key.text.starts_with('{')))
     return parts(key);
-  float width = ImGui::GetContentRegionAvail().x * (1 - key_share) - remove_width - 2;
+  float width = ImGui::GetContentRegionAvail().x * (1 - key_share) - tail_width() - 2;
   if (what.kind == MemberKind::truth) {
     const float x = ImGui::GetCursorPosX(), all = ImGui::GetContentRegionAvail().x;
     truth(key);
-    ImGui::SameLine(x + all - remove_width);
+    ImGui::SameLine(x + all - tail_width());
     return remove(key);
   }
   label(key);
@@ -377,6 +444,7 @@ void draw_description_panel(PanelContext& context) {
   const Outline& outline = *view->outline;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
   draw_way(context, outline);
+  ImGui::Dummy(ImVec2(0, 1));
   draw_draft(context, *view);
   if (!outline.what.doc.empty()) note(outline.what.doc);
   DescriptionForm form(context, outline);
@@ -401,6 +469,8 @@ std::string deed_of(const EditDescription& edit) {
       return fmt::format("Add {}{}", last, of);
     case How::remove:
       return fmt::format("Leave out {}{}", last, of);
+    case How::move:
+      return fmt::format("Move {}{} {}", last, of, edit.value.starts_with('-') ? "up" : "down");
     case How::rename:
       return fmt::format("Rename {} to {}", last, edit.value);
     case How::declare:
