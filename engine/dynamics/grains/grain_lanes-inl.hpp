@@ -161,14 +161,16 @@ static_assert(sizeof(GrainRow) == 32 && sizeof(GrainShift) == 16);
 struct GrainShifting {
   std::array<float*, grain_step> at;
   GrainV x;
+  GrainF mass;  ///< inverse mass
 
   HWY_INLINE GrainShifting(GrainShift* shifts, const uint32_t* index) {
     for (size_t k = 0; k < grain_step; ++k) at[k] = shifts[index[k]].x.data();
     const GrainFour t = read_four(at.data(), 0);
     x = {t.x, t.y, t.z};
+    mass = t.w;
   }
   HWY_INLINE void write(uint32_t mask) const {
-    write_four({x.x, x.y, x.z, every_grain(0)}, at.data(), mask, 0);
+    write_four({x.x, x.y, x.z, mass}, at.data(), mask, 0);
   }
 };
 

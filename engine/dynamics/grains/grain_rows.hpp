@@ -33,7 +33,7 @@ struct alignas(32) GrainRow {
 /// thousand times better than a position.
 struct alignas(16) GrainShift {
   std::array<float, 3> x{};  ///< [m]
-  float spare = 0;
+  float inverse_mass = 0;    ///< as in GrainRow
 };
 
 /// A body that grains touch.

@@ -50,15 +50,38 @@ bool GrainStage::asked_for(const HandlePool<ParticleSystemTag>& ids,
   return false;
 }
 
-/// Upper bound on the approach speed of any two grains [m/s].
-double GrainStage::closing_speed(Crew* crew) const {
-  std::array<Aabb, chunk_count> v;
-  for_chunks(crew, grains_.size(), [&](size_t chunk, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) v[chunk].include(grains_.movers[i].v);
-  });
-  Aabb all;
-  for (const Aabb& chunk : v) all.include(chunk);
-  return all.extent().norm();
+/// Number of parts of a tick that keeps approaches short: of any two grains, and of groups of
+/// grains. A few fast grains on a heap at rest do not divide the tick.
+int GrainStage::parts_of(const GrainTick& tick) const {
+  struct Speeds {
+    Aabb single, groups;
+  };
+  constexpr size_t group = tolerances::grain_group;
+  std::array<Speeds, chunk_count> speeds;
+  for_chunks(tick.crew, (grains_.size() + group - 1) / group,
+             [&](size_t chunk, size_t first, size_t last) {
+               for (size_t k = first; k < last; ++k) {
+                 const size_t begin = k * group, end = std::min(begin + group, grains_.size());
+                 Vec3 sum = Vec3::Zero();
+                 for (size_t i = begin; i < end; ++i) {
+                   speeds[chunk].single.include(grains_.movers[i].v);
+                   sum += grains_.movers[i].v;
+                 }
+                 speeds[chunk].groups.include(sum / double(end - begin));
+               }
+             });
+  Speeds all;
+  for (const Speeds& s : speeds) {
+    all.single.include(s.single);
+    all.groups.include(s.groups);
+  }
+  const auto parts = [&](const Aabb& v, double most) {
+    const double fastest = v.extent().norm() + tick.gravity.norm() * tick.h;
+    return std::ceil(fastest * tick.h / (most * grains_.least_radius));
+  };
+  return int(std::clamp(std::max(parts(all.single, tolerances::grain_part),
+                                 parts(all.groups, tolerances::grain_group_part)),
+                        1.0, double(tolerances::most_grain_parts)));
 }
 
 void GrainStage::wake_again(const GrainTick& tick, size_t i) {
@@ -100,10 +123,7 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
   report.moved = true;
   bodies_.begin_tick(tick);
   copy_places(grains_, start_, tick.crew);
-  const double fastest = closing_speed(tick.crew) + tick.gravity.norm() * tick.h;
-  const double parts_wanted =
-      std::ceil(fastest * tick.h / (tolerances::grain_part * grains_.least_radius));
-  const int parts = int(std::clamp(parts_wanted, 1.0, double(tolerances::most_grain_parts)));
+  const int parts = parts_of(tick);
   const int substeps = (substeps_of_tick(tick) + parts - 1) / parts;
   for (int k = 0; k < parts && !stop_requested(); ++k)
     if (Status done =

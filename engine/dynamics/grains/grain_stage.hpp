@@ -29,7 +29,7 @@ class GrainStage {
  private:
   void wake_lost(const GrainTick& tick, const GrainTouches& touches);
   void wake_again(const GrainTick& tick, size_t i);
-  double closing_speed(Crew* crew) const;
+  int parts_of(const GrainTick& tick) const;
   Status part(const GrainTick& tick, GrainTouches& touches, double t0, double t1, int substeps,
               GrainReport& report);
   void find_touched(Crew* crew);

@@ -38,7 +38,7 @@ void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
   for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
     Extent& e = extents[chunk];
     for (size_t i = first; i < last; ++i) {
-      const double reach = grains.points[i].radius * (2 + tolerances::grain_foresight);
+      const double reach = grains.points[i].radius * (2 + tolerances::grain_shape_foresight);
       const Aabb ball = Aabb{grains.points[i].x, grains.points[i].x}.inflated(reach);
       e.all.include(ball);
       if (grains.asleep[i]) continue;
@@ -191,7 +191,7 @@ void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t
     const double speed = grains.movers[i].v.norm() + h * grains.acceleration[i].norm();
     const auto margin = [&](double way) {
       return r * tolerances::grain_margin +
-             std::min(r * tolerances::grain_foresight, h * (speed + way / tick.h));
+             std::min(r * tolerances::grain_shape_foresight, h * (speed + way / tick.h));
     };
     const double reach = r + margin(longest_way_);
     Clearance& clear = clear_[grains.ordinal[i]];

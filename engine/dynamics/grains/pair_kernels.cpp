@@ -54,26 +54,22 @@ struct GrainContactPlace {
     const GrainV way = load_grain(c.way, lane);
     return {way, direction(way, inverse_or_zero(hn::Sqrt(dot(way, way)))), load_grain(c.gap, lane)};
   }
-  /// Of a contact whose grains have moved, and are moved apart if they overlap.
+  /// Of a contact whose grains have moved.
   static HWY_INLINE GrainContactPlace present(const GrainPairView& in, GrainBundle& c,
-                                              const GrainSides& sides, GrainF share, size_t lane) {
-    GrainShifting a(in.shifts, c.a.data() + lane), b(in.shifts, c.b.data() + lane);
-    GrainContactPlace at;
-    at.way = load_grain(c.from, lane) + (b.x - a.x);
-    const GrainF distance = hn::Sqrt(dot(at.way, at.way)), reach = load_grain(c.reach, lane);
-    at.gap = distance - reach;
-    at.n = direction(at.way, inverse_or_zero(distance));
+                                              size_t lane) {
+    const GrainShifting a(in.shifts, c.a.data() + lane), b(in.shifts, c.b.data() + lane);
+    const auto at = between(a, b, c, lane);
     store_grain(at.way, c.way, lane);
     store_grain(at.gap, c.gap, lane);
-    const GrainF least = reach * hn::Min(share, every_grain(1) - share), zero = every_grain(0);
-    const GrainF deep = zero - at.gap - every_grain(float(tolerances::grain_slop)) * least;
-    if (hn::AllFalse(GrainD(), hn::Gt(deep, zero))) return at;
-    const GrainF part = every_grain(float(tolerances::grain_push_out)) * hn::Max(deep, zero) *
-                        inverse_or_zero(sides.a.mass + sides.b.mass);
-    a.x = a.x - (part * sides.a.mass) * at.n;
-    b.x = b.x + (part * sides.b.mass) * at.n;
-    a.write(uint32_t(c.writes_a) >> lane);
-    b.write(uint32_t(c.writes_b) >> lane);
+    return at;
+  }
+  static HWY_INLINE GrainContactPlace between(const GrainShifting& a, const GrainShifting& b,
+                                              const GrainBundle& c, size_t lane) {
+    GrainContactPlace at;
+    at.way = load_grain(c.from, lane) + (b.x - a.x);
+    const GrainF distance = hn::Sqrt(dot(at.way, at.way));
+    at.gap = distance - load_grain(c.reach, lane);
+    at.n = direction(at.way, inverse_or_zero(distance));
     return at;
   }
 
@@ -207,8 +203,8 @@ HWY_INLINE void sweep_lanes(const GrainPairView& in, uint32_t k, size_t lane, fl
   GrainBundle& c = in.bundles[k];
   GrainSides sides(in, c, lane);
   const GrainF share = load_grain(c.share, lane);
-  const auto place = follows ? GrainContactPlace::present(in, c, sides, share, lane)
-                             : GrainContactPlace::stored(c, lane);
+  const auto place =
+      follows ? GrainContactPlace::present(in, c, lane) : GrainContactPlace::stored(c, lane);
   const GrainV& n = place.n;
   const GrainF zero = every_grain(0), half = every_grain(0.5f);
   const GrainF masses = sides.a.mass + sides.b.mass, mass = inverse_or_zero(masses);
@@ -257,6 +253,27 @@ void SweepPairs(const GrainPairView& in, GrainRange range, float inverse_hs, boo
     sweep_range<false>(in, range, inverse_hs, work);
 }
 
+HWY_INLINE void part_lanes(const GrainPairView& in, const GrainBundle& c, size_t lane) {
+  GrainShifting a(in.shifts, c.a.data() + lane), b(in.shifts, c.b.data() + lane);
+  const auto at = GrainContactPlace::between(a, b, c, lane);
+  const GrainF share = load_grain(c.share, lane), zero = every_grain(0);
+  const GrainF least = load_grain(c.reach, lane) * hn::Min(share, every_grain(1) - share);
+  const GrainF deep = zero - at.gap - every_grain(float(tolerances::grain_slop)) * least;
+  if (hn::AllFalse(GrainD(), hn::Gt(deep, zero))) return;
+  const GrainF part = every_grain(float(tolerances::grain_push_out)) * hn::Max(deep, zero) *
+                      inverse_or_zero(a.mass + b.mass);
+  a.x = a.x - (part * a.mass) * at.n;
+  b.x = b.x + (part * b.mass) * at.n;
+  a.write(uint32_t(c.writes_a) >> lane);
+  b.write(uint32_t(c.writes_b) >> lane);
+}
+
+void PartOverlappingPairs(const GrainPairView& in, GrainRange range) {
+  for (uint32_t k = range.begin; k < range.end; ++k)
+    for (size_t lane = 0; lane < in.bundles[k].lanes; lane += grain_step)
+      part_lanes(in, in.bundles[k], lane);
+}
+
 HWY_INLINE void bounce_lanes(const GrainPairView& in, uint32_t k, size_t lane,
                              GrainWorkLanes& work) {
   GrainBundle& c = in.bundles[k];
@@ -296,6 +313,7 @@ HWY_EXPORT(ReadForces);
 HWY_EXPORT(WriteForces);
 HWY_EXPORT(WarmStartPairs);
 HWY_EXPORT(SweepPairs);
+HWY_EXPORT(PartOverlappingPairs);
 HWY_EXPORT(BouncePairs);
 
 void read_forces(const GrainForcesView& from, float unit, GrainBundle& to) {
@@ -310,6 +328,9 @@ void warm_start_pairs(const GrainPairView& in, GrainRange range, GrainWork& work
 void sweep_pairs(const GrainPairView& in, GrainRange range, float inverse_hs, bool follows,
                  GrainWork& work) {
   HWY_DYNAMIC_DISPATCH(SweepPairs)(in, range, inverse_hs, follows, work);
+}
+void part_overlapping_pairs(const GrainPairView& in, GrainRange range) {
+  HWY_DYNAMIC_DISPATCH(PartOverlappingPairs)(in, range);
 }
 void bounce_pairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
   HWY_DYNAMIC_DISPATCH(BouncePairs)(in, range, work);

@@ -36,10 +36,12 @@ void write_forces(const GrainForcesView& to, float unit, const GrainBundle& from
 /// Applies the impulses of the previous sub-step, rotated into the present tangent planes.
 void warm_start_pairs(const GrainPairView& in, GrainRange range, GrainWork& work);
 /// One sweep: rolling and torsional friction, friction, normals. If `follows`, each contact is
-/// first brought to the present positions, and its grains are moved apart if they overlap, which
-/// does not change their velocities: unconverged sweeps would turn such velocities into bouncing.
+/// first brought to the present positions.
 void sweep_pairs(const GrainPairView& in, GrainRange range, float inverse_hs, bool follows,
                  GrainWork& work);
+/// Moves overlapping grains apart without changing velocities: unconverged sweeps would turn such
+/// velocities into bouncing.
+void part_overlapping_pairs(const GrainPairView& in, GrainRange range);
 /// Applies restitution in lanes that have a restitution speed.
 void bounce_pairs(const GrainPairView& in, GrainRange range, GrainWork& work);
 

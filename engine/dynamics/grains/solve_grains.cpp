@@ -17,12 +17,14 @@ void begin_motion(const GrainSystemRows& r, double hs, Crew* crew) {
   const size_t count = r.points.size();
   r.motion.rows.resize(count);
   r.motion.kicks.resize(count);
-  r.motion.shifts.assign(count, {});
+  r.motion.shifts.resize(count);
   for_chunks(crew, count, [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const GrainMover& m = r.movers[i];
-      r.motion.rows[i] = {single(m.v).x, float(r.mass_unit * m.inverse_mass), single(m.spin).x,
+      const auto inverse_mass = float(r.mass_unit * m.inverse_mass);
+      r.motion.rows[i] = {single(m.v).x, inverse_mass, single(m.spin).x,
                           float(r.mass_unit * m.inverse_moment)};
+      r.motion.shifts[i] = {{}, inverse_mass};
       r.motion.kicks[i] = single(hs * r.acceleration[i]);
     }
   });
@@ -73,10 +75,16 @@ class SweepGrains {
     });
     between([&](GrainRange range, GrainWork& work) { sweep_pairs(in_, range, rate, false, work); });
     with_walls([&](std::span<GrainBodyRow> rows) { sweep(walls_, rows, 1 / hs_); });
-    time_ += hs_;
-    // Contacts move with the grains: impulses act at their present places.
-    blocks([&](size_t block, GrainRange range, GrainWork& work) {
+    blocks([&](size_t block, GrainRange range, GrainWork&) {
       move(block);
+      part_overlapping_pairs(in_, range);
+    });
+    time_ += hs_;
+    between([&](GrainRange range, GrainWork&) { part_overlapping_pairs(in_, range); });
+    with_walls([&](std::span<GrainBodyRow> rows) { part_overlapping(walls_, rows, time_); });
+    // Contacts have moved with the grains: impulses act at their present places, and the next
+    // sub-step begins with the gaps that are left now.
+    blocks([&](size_t, GrainRange range, GrainWork& work) {
       sweep_pairs(in_, range, rate, true, work);
     });
     between([&](GrainRange range, GrainWork& work) { sweep_pairs(in_, range, rate, true, work); });

@@ -145,11 +145,16 @@ void sweep(const GrainWalls& in, std::span<GrainBodyRow> rows, double inverse_hs
   each_row(in, rows, [inverse_hs](const WallSolver& s) { s.sweep(inverse_hs); });
 }
 
+void part_overlapping(const GrainWalls& in, std::span<GrainBodyRow> rows, double time) {
+  for (GrainBodyRow& row : rows) {
+    follow(in.shifts[row.a], row, time);
+    part_overlapping(in.shifts[row.a], row);
+  }
+}
+
 void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time, double inverse_hs) {
   each_row(in, rows, [&](const WallSolver& s) {
     GrainBodyRow& row = s.row;
-    follow(in.shifts[row.a], row, time);
-    part_overlapping(in.shifts[row.a], row);
     follow(in.shifts[row.a], row, time);
     s.sweep(inverse_hs);
     row.given -= row.push * row.n;
