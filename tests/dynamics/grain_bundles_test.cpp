@@ -105,7 +105,7 @@ TEST_CASE("every pair has one lane, no two of a colour share a grain, no two blo
 
   GrainBundles bundles;
   bundles.lay_out(pairs, grains, nullptr);
-  const std::vector<GrainForces> nothing(pairs.all.size());
+  std::vector<GrainForces> nothing(pairs.all.size());
   bundles.fill(tick, pairs, grains, nothing, tick.h);
   size_t lanes = 0;
   const auto check = [&](const GrainBundle& c, std::set<uint32_t>& used) {
@@ -130,7 +130,7 @@ TEST_CASE("every pair has one lane, no two of a colour share a grain, no two blo
   CHECK(once.empty());
 }
 
-TEST_CASE("a cloud of thousands of grains keeps its momentum to rounding" *
+TEST_CASE("a cloud of thousands of grains keeps its momentum to single precision" *
           doctest::test_suite("long")) {
   for (const double restitution : {0.0, 0.5}) {
     Cloud cloud(16, 0.5, restitution, 2);
@@ -145,7 +145,7 @@ TEST_CASE("a cloud of thousands of grains keeps its momentum to rounding" *
     const Vec3 before = momentum();
     cloud.run(30);
     CHECK(cloud.report.contacts > 1000);
-    CHECK((momentum() - before).norm() < 1e-12 * all);
+    CHECK((momentum() - before).norm() < 1e-6 * all);
   }
 }
 

@@ -140,6 +140,29 @@ TEST_CASE("a grain slides until it rolls: 5/7 of its speed after 2 v0 / (7 mu g)
   }
 }
 
+TEST_CASE(
+    "a pair of grains rolls to the same rest, however light, and however far from the origin") {
+  // Friction and rolling friction of a grain on another: what single precision could lose.
+  const auto run = [](double mass, const Vec3& from) {
+    Sandbox box({0.1, 0.05}, 0.5);
+    box.ground();
+    box.settings.sleeping = false;
+    for (const double x : {-0.0105, 0.0105}) box.add(from + Vec3(x, 0.01, 0), {}, 0.01, mass);
+    box.add(from + Vec3(0.001, 0.028, 0.0005), {0.1, 0, 0}, 0.01, mass);
+    box.run(1);
+    std::vector<Vec3> places;
+    for (const Vec3& x : box.grains().x) places.push_back(x - from);
+    return places;
+  };
+  const std::vector<Vec3> usual = run(0.01, Vec3::Zero());
+  const std::vector<Vec3> light = run(1e-18, Vec3::Zero());
+  const std::vector<Vec3> far = run(0.01, Vec3(1000, 0, -1000));
+  for (size_t i = 0; i < usual.size(); ++i) {
+    CHECK((light[i] - usual[i]).norm() < 1e-4 * 0.01);
+    CHECK((far[i] - usual[i]).norm() < 1e-4 * 0.01);
+  }
+}
+
 TEST_CASE("rolling friction slows a rolling grain by 5/7 mu_r g") {
   // m a = f and I a / r = -(f r + mu_r r m g) with I = 2/5 m r^2: 7/5 m a = -mu_r m g.
   for (const double mu_r : {0.02, 0.1}) {
@@ -180,8 +203,8 @@ TEST_CASE("two grains head on part with e times the speed of their approach") {
     const size_t b = box.add({0.1, 0, 0}, {-1, 0, 0}, 0.01, 0.01);
     box.run(0.5);
     const double mean = (0.02 * 3 - 0.01 * 1) / 0.03;
-    CHECK(box.grains().v[a].x() == doctest::Approx(mean - e * 4 / 3).epsilon(1e-9));
-    CHECK(box.grains().v[b].x() == doctest::Approx(mean + e * 8 / 3).epsilon(1e-9));
+    CHECK(box.grains().v[a].x() == doctest::Approx(mean - e * 4 / 3).epsilon(1e-6));
+    CHECK(box.grains().v[b].x() == doctest::Approx(mean + e * 8 / 3).epsilon(1e-6));
   }
 }
 
@@ -200,10 +223,13 @@ TEST_CASE("grains that collide obliquely keep momentum and angular momentum, and
     }
     const Vec3 p = box.momentum(), l = box.angular_momentum();
     const double energy = box.energy();
+    double all = 0;  // Contacts are solved in single precision.
+    for (size_t i = 0; i < box.grains().size(); ++i)
+      all += box.grains().mass[i] * box.grains().v[i].norm();
     box.run(1);
-    CHECK((box.momentum() - p).norm() < 1e-15);
-    if (count == 2) CHECK((box.angular_momentum() - l).norm() < 1e-15);
-    CHECK(box.energy() < energy * (1 + 1e-9));
+    CHECK((box.momentum() - p).norm() < 1e-6 * all);
+    if (count == 2) CHECK((box.angular_momentum() - l).norm() < 1e-6 * 0.1 * all);
+    CHECK(box.energy() < energy * (1 + 1e-6));
     for (const Vec3& s : box.grains().spin) spun = std::max(spun, s.norm());
   }
   CHECK(spun > 1);
@@ -322,7 +348,7 @@ TEST_CASE("grains and a free body exchange momentum") {
   const Vec3 p = box.momentum();
   box.run(1);
   CHECK(b.v.x() > 0.05);
-  CHECK((box.momentum() + b.mass * b.v - p).norm() < 1e-12);
+  CHECK((box.momentum() + b.mass * b.v - p).norm() < 1e-6 * p.norm());
 }
 
 TEST_CASE("what grains cannot be is refused with its cure") {
@@ -336,6 +362,24 @@ TEST_CASE("what grains cannot be is refused with its cure") {
   def.fast = false;
   def.collide = false;
   CHECK(!validate(def).ok());
+}
+
+TEST_CASE("one fast grain far from a heap changes no bit of it") {
+  // It is too fast for one part of a tick if many were so fast; its group along the curve, of which
+  // it is the last, is slow on the whole.
+  const auto heap = [](bool beside) {
+    Sandbox box({0.05, 0.05});
+    box.settings.sleeping = false;
+    box.ground();
+    pour(box, 5, 3);
+    REQUIRE(box.grains().size() % 4 == 3);
+    const size_t count = box.grains().size();
+    box.run(0.5);
+    if (beside) box.add({5, 5, 5}, {0.7, 0, 0}, 0.009, 0.008);
+    box.run(3 * box.h);
+    return std::vector(box.grains().x.begin(), box.grains().x.begin() + std::ptrdiff_t(count));
+  };
+  CHECK(heap(true) == heap(false));
 }
 
 TEST_CASE("grains with the same centre part until they touch, and keep their centre of mass") {

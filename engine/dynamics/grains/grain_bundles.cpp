@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/grains/pair_kernels.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -126,7 +127,7 @@ void GrainBundles::lay_out(const GrainPairList& pairs, const GrainField& grains,
 }
 
 void GrainBundles::fill(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
-                        std::span<const GrainForces> forces, double hs) {
+                        std::span<GrainForces> forces, double hs) {
   bool turns = false, bounces = false;
   for (uint32_t k = 0; k < tick.systems.size(); ++k) {
     if (!tick.ids.alive(k) || !tick.systems[k].grains) continue;
@@ -139,104 +140,100 @@ void GrainBundles::fill(const GrainTick& tick, const GrainPairList& pairs, const
   for_chunks(
       tick.crew, bundles_.size(),
       [&](size_t, size_t first, size_t last) {
-        for (size_t k = first; k < last; ++k) fill_bundle(tick, pairs, grains, forces, hs, k);
+        PairMaterial of;
+        for (size_t k = first; k < last; ++k) fill_bundle(tick, pairs, grains, forces, hs, of, k);
       },
       least_bundles);
 }
 
-void GrainBundles::fill_bundle(const GrainTick& tick, const GrainPairList& pairs,
-                               const GrainField& grains, std::span<const GrainForces> forces,
-                               double hs, size_t k) {
-  const uint32_t* source = &source_[k * grain_lanes];
-  GrainBundle& to = bundles_[k];
-  to.lanes = 0;
-  to.writes_a = to.writes_b = 0;
-  to.bounces = false;
-  for (size_t lane = 0; lane < grain_lanes; ++lane) {
-    const bool used = source[lane] != GrainPairList::none;
-    to.a[lane] = used ? pairs.all[source[lane]].a : to.a[0];
-    to.b[lane] = used ? pairs.all[source[lane]].b : to.a[0];
-    to.lanes += used;
-    if (!used) continue;
-    prefetch<sizeof(GrainForces)>(&forces[source[lane]]);
-    for (const uint32_t i : {to.a[lane], to.b[lane]}) {
-      prefetch(&grains.points[i]);
-      prefetch(&grains.movers[i]);
-    }
-  }
-  GrainTurning* turning = turnings_.empty() ? nullptr : &turnings_[k];
-  for (size_t lane = 0; lane < grain_lanes; ++lane) {
-    const bool used = lane < to.lanes;
-    const GrainForces before = used ? forces[source[lane]] : GrainForces{};
-    const auto impulse = [&](float force) { return float(double(force) * hs); };
-    to.push[lane] = impulse(before.push);
-    for (size_t c = 0; c < 3; ++c) to.rub[c][lane] = impulse(before.rub[c]);
-    to.friction[lane] = 0;
-    if (turning) {
-      for (size_t c = 0; c < 3; ++c) turning->turn[c][lane] = impulse(before.turn[c]);
-      turning->rolling[lane] = turning->twisting[lane] = 0;
-    }
-    if (used) fill_lane(tick, grains, k, lane);
-  }
+GrainBundles::PairMaterial GrainBundles::material(const GrainTick& tick, uint32_t a, uint32_t b) {
+  const ParticleSystem &pa = tick.systems[a], &pb = tick.systems[b];
+  const auto mean = [same = a == b](double u, double v) { return same ? u : std::sqrt(u * v); };
+  return {a,
+          b,
+          float(mean(pa.friction, pb.friction)),
+          mean(pa.grains->rolling_friction, pb.grains->rolling_friction),
+          mean(pa.grains->torsional_friction, pb.grains->torsional_friction),
+          std::max(pa.restitution, pb.restitution)};
 }
 
-void GrainBundles::fill_lane(const GrainTick& tick, const GrainField& grains, size_t k,
-                             size_t lane) {
+void GrainBundles::fill_bundle(const GrainTick& tick, const GrainPairList& pairs,
+                               const GrainField& grains, std::span<GrainForces> forces, double hs,
+                               PairMaterial& of, size_t k) {
+  const uint32_t* source = &source_[k * grain_lanes];
+  GrainBundle& to = bundles_[k];
+  GrainTurning* turning = turnings_.empty() ? nullptr : &turnings_[k];
+  to = {};
+  while (to.lanes < grain_lanes && source[to.lanes] != GrainPairList::none) ++to.lanes;
+  for (size_t lane = 0; lane < grain_lanes; ++lane) {
+    const bool used = lane < to.lanes;
+    to.a[lane] = used ? pairs.all[source[lane]].a : to.a[0];
+    to.b[lane] = used ? pairs.all[source[lane]].b : to.a[0];
+    if (!used) continue;
+    prefetch<sizeof(GrainForces)>(&forces[source[lane]]);
+    for (const uint32_t i : {to.a[lane], to.b[lane]}) prefetch(&grains.points[i]);
+  }
+  if (turning) turning->rolling = turning->twisting = {};
+  for (size_t lane = 0; lane < to.lanes; ++lane) {
+    const uint32_t a = grains.owner[to.a[lane]].system, b = grains.owner[to.b[lane]].system;
+    if (a != of.a || b != of.b) of = material(tick, a, b);
+    fill_lane(tick, grains, of, k, lane);
+  }
+  read_forces({forces.data(), source, turning}, float(hs / grains.largest_mass), to);
+}
+
+void GrainBundles::fill_lane(const GrainTick& tick, const GrainField& grains,
+                             const PairMaterial& of, size_t k, size_t lane) {
   GrainBundle& to = bundles_[k];
   const uint32_t a = to.a[lane], b = to.b[lane];
   to.writes_a = uint16_t(to.writes_a | (grains.asleep[a] ? 0 : 1 << lane));
   to.writes_b = uint16_t(to.writes_b | (grains.asleep[b] ? 0 : 1 << lane));
-  const ParticleSystem& pa = tick.systems[grains.owner[a].system];
-  const ParticleSystem& pb = tick.systems[grains.owner[b].system];
-  const bool same = &pa == &pb;
-  const auto mean = [same](double u, double v) { return same ? u : std::sqrt(u * v); };
-  to.friction[lane] = float(mean(pa.friction, pb.friction));
+  const GrainPoint &at_a = grains.points[a], &at_b = grains.points[b];
+  const Vec3 way = at_b.x - at_a.x;
+  const double distance = way.norm(), reach = at_a.radius + at_b.radius;
+  for (size_t c = 0; c < 3; ++c) to.from[c][lane] = to.way[c][lane] = float(way[int(c)]);
+  to.reach[lane] = float(reach);
+  to.share[lane] = float(at_a.radius / reach);
+  to.gap[lane] = float(distance - reach);
+  to.friction[lane] = of.friction;
   if (!turnings_.empty()) {
-    const double ra = grains.points[a].radius, rb = grains.points[b].radius;
-    const double lever = 2 * ra * rb / (ra + rb);
-    const auto arm = [&](double u, double v) { return float(lever * mean(u, v)); };
-    turnings_[k].rolling[lane] = arm(pa.grains->rolling_friction, pb.grains->rolling_friction);
-    turnings_[k].twisting[lane] = arm(pa.grains->torsional_friction, pb.grains->torsional_friction);
+    const double lever = 2 * at_a.radius * at_b.radius / reach;
+    turnings_[k].rolling[lane] = float(lever * of.rolling);
+    turnings_[k].twisting[lane] = float(lever * of.twisting);
   }
-  const double restitution = std::max(pa.restitution, pb.restitution);
   const double threshold = tick.settings.restitution_threshold;
+  if (of.restitution == 0) return;
   const Vec3 relative = grains.movers[b].v - grains.movers[a].v;
-  if (restitution == 0 || relative.squaredNorm() < threshold * threshold) return;
-  const Vec3 way = grains.points[b].x - grains.points[a].x;
-  const double distance = way.norm();
+  if (relative.squaredNorm() < threshold * threshold) return;
   const double approach = (distance > 0 ? Vec3(way / distance) : Vec3::UnitY()).dot(relative);
   if (approach > -threshold) return;
   if (!to.bounces) bounces_[k] = {};
   to.bounces = true;
-  bounces_[k].speed[lane] = -restitution * approach;
+  bounces_[k].speed[lane] = float(-of.restitution * approach);
 }
 
-double GrainBundles::read(std::span<GrainForces> forces, double hs, Crew* crew) const {
+double GrainBundles::read(const GrainField& grains, std::span<GrainForces> forces, double hs,
+                          Crew* crew) {
   std::array<float, chunk_count> deepest{};
+  const double force = grains.largest_mass / hs;
   for_chunks(
       crew, bundles_.size(),
       [&](size_t chunk, size_t first, size_t last) {
         for (size_t k = first; k < last; ++k)
-          deepest[chunk] = std::max(deepest[chunk], read_bundle(forces, hs, k));
+          deepest[chunk] = std::max(deepest[chunk], read_bundle(forces, force, k));
       },
       least_bundles);
   return double(std::ranges::max(deepest));
 }
 
-/// Reads the forces of a bundle; returns its greatest overlap, or 0.
-float GrainBundles::read_bundle(std::span<GrainForces> forces, double hs, size_t k) const {
+/// Reads the forces of a bundle, `unit` newtons per impulse; returns its greatest overlap, or 0.
+float GrainBundles::read_bundle(std::span<GrainForces> forces, double unit, size_t k) {
   const GrainBundle& from = bundles_[k];
-  const auto force = [&](float impulse) { return float(double(impulse) / hs); };
+  write_forces(
+      {forces.data(), &source_[k * grain_lanes], turnings_.empty() ? nullptr : &turnings_[k]},
+      float(unit), from);
   float deepest = 0;
-  for (size_t lane = 0; lane < from.lanes; ++lane) {
-    deepest = std::max(deepest, -from.gap[lane]);
-    GrainForces f;
-    f.push = force(from.push[lane]);
-    for (size_t c = 0; c < 3; ++c) f.rub[c] = force(from.rub[c][lane]);
-    if (!turnings_.empty())
-      for (size_t c = 0; c < 3; ++c) f.turn[c] = force(turnings_[k].turn[c][lane]);
-    forces[source_[k * grain_lanes + lane]] = f;
-  }
+  for (size_t lane = 0; lane < from.lanes; ++lane) deepest = std::max(deepest, -from.gap[lane]);
   return deepest;
 }
 

@@ -20,33 +20,35 @@ struct alignas(64) GrainFloats {
 };
 
 /// Sixteen contacts of two grains each, no two of which share a movable grain. Impulses are on b,
-/// of the present sub-step, stored in single precision, which suffices as the next sub-step's
-/// start; changes of grains are computed and applied in double precision. In lanes without a
-/// contact, both sides are the first lane's `a`, which they do not move.
+/// of the present sub-step, and relative to the unit of mass. In lanes without a contact, both
+/// sides are the first lane's `a`, which they do not move.
 struct alignas(64) GrainBundle {
-  std::array<uint32_t, grain_lanes> a{}, b{};          ///< places of the grains
-  std::array<std::array<double, grain_lanes>, 3> way;  ///< from the centre of a to that of b [m]
-  GrainFloats gap;                                     ///< negative where they overlap [m]
+  std::array<uint32_t, grain_lanes> a{}, b{};  ///< places of the grains
+  /// From the centre of a to that of b: at the beginning of the part; at the last sweep that
+  /// followed the grains [m]
+  std::array<GrainFloats, 3> from, way;
+  GrainFloats reach;                    ///< sum of the radii [m]
+  GrainFloats gap;                      ///< negative where they overlap [m]
   GrainFloats share;                    ///< position of the contact along `way`, from a [-]
   GrainFloats friction;                 ///< [-]
-  GrainFloats push;                     ///< normal impulse [N s]
-  std::array<GrainFloats, 3> rub;       ///< friction impulse [N s]
+  GrainFloats push;                     ///< normal impulse [m/s]
+  std::array<GrainFloats, 3> rub;       ///< friction impulse [m/s]
   uint32_t lanes = 0;                   ///< number of contacts, in the first lanes
   uint16_t writes_a = 0, writes_b = 0;  ///< bit k: the grain of lane k is awake
   bool bounces = false;                 ///< some lane has a restitution speed
 };
-static_assert(sizeof(GrainBundle) == grain_lanes * 64);
+static_assert(sizeof(GrainBundle) == 17 * 64);
 
 /// What contacts with rolling or torsional friction have besides.
 struct GrainTurning {
   GrainFloats rolling, twisting;    ///< lever arms of rolling and torsional friction [m]
-  std::array<GrainFloats, 3> turn;  ///< angular impulse [N m s]
+  std::array<GrainFloats, 3> turn;  ///< angular impulse, relative to the unit of mass [m2/s]
 };
 
 /// What contacts with restitution have besides.
 struct GrainBounce {
-  std::array<double, grain_lanes> speed{};  ///< separation speed if they press at all [m/s]
-  GrainFloats most;                         ///< greatest normal impulse in the part [N s]
+  GrainFloats speed;  ///< separation speed if they press at all [m/s]
+  GrainFloats most;   ///< greatest normal impulse in the part [m/s]
 };
 
 /// Bundles [begin, end).
@@ -66,9 +68,9 @@ class GrainBundles {
   void lay_out(const GrainPairList& pairs, const GrainField& grains, Crew* crew);
   /// Fills in contacts and their initial forces, by pair; `hs` is the sub-step [s].
   void fill(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
-            std::span<const GrainForces> forces, double hs);
+            std::span<GrainForces> forces, double hs);
   /// Reads the forces of the last sub-step; returns the greatest overlap [m].
-  double read(std::span<GrainForces> forces, double hs, Crew* crew) const;
+  double read(const GrainField& grains, std::span<GrainForces> forces, double hs, Crew* crew);
 
   std::vector<GrainBundle>& all() { return bundles_; }
   std::span<const GrainBundle> all() const { return bundles_; }
@@ -99,10 +101,20 @@ class GrainBundles {
   };
   void colour_block(const GrainPairList& pairs, const GrainField& grains, size_t block);
   void colour_between(const GrainPairList& pairs, const GrainField& grains);
+  /// What contacts of grains of two systems have in common.
+  struct PairMaterial {
+    uint32_t a = ~uint32_t{0}, b = ~uint32_t{0};  ///< slots of the systems
+    float friction = 0;                           ///< [-]
+    double rolling = 0, twisting = 0;             ///< [-]
+    double restitution = 0;                       ///< [-]
+  };
+  static PairMaterial material(const GrainTick& tick, uint32_t a, uint32_t b);
+  /// `of`: material of the last contact that was filled in.
   void fill_bundle(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,
-                   std::span<const GrainForces> forces, double hs, size_t k);
-  void fill_lane(const GrainTick& tick, const GrainField& grains, size_t k, size_t lane);
-  float read_bundle(std::span<GrainForces> forces, double hs, size_t k) const;
+                   std::span<GrainForces> forces, double hs, PairMaterial& of, size_t k);
+  void fill_lane(const GrainTick& tick, const GrainField& grains, const PairMaterial& of, size_t k,
+                 size_t lane);
+  float read_bundle(std::span<GrainForces> forces, double unit, size_t k);
 
   std::vector<GrainBundle> bundles_;
   std::vector<GrainTurning> turnings_;

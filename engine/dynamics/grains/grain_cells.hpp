@@ -31,6 +31,7 @@ class GrainCells {
     /// ordinals are above `after`: indices for place().
     std::span<const uint32_t> of(const GrainCells& in, uint32_t k, double more, int32_t after);
     uint32_t place(uint32_t n) const { return place_[n]; }
+    uint32_t ordinal(uint32_t n) const { return uint32_t(ordinal_[n]); }
 
    private:
     void make_room(size_t size);

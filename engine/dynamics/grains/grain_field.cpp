@@ -23,7 +23,7 @@ Status GrainField::line_up(const GrainTick& tick) {
   }
   by_ordinal_.resize(count);
   least_radius = std::numeric_limits<double>::infinity();
-  largest_radius = 0;
+  largest_radius = largest_mass = 0;
   for (uint32_t k = 0; k < tick.systems.size(); ++k) {
     if (first[k] == first[k + 1]) continue;
     const ParticleSystem& p = tick.systems[k];
@@ -31,6 +31,7 @@ Status GrainField::line_up(const GrainTick& tick) {
     const auto [least, largest] = std::ranges::minmax(p.radius);
     least_radius = std::min(least_radius, least);
     largest_radius = std::max(largest_radius, largest);
+    largest_mass = std::max(largest_mass, std::ranges::max(p.mass));
   }
   for (const Vec3& x : by_ordinal_)
     if (!x.allFinite())

@@ -42,6 +42,7 @@ struct GrainField {
   std::vector<uint32_t> first;     ///< by system slot: ordinal of its first grain; then the end
   size_t sleepers = 0;
   double least_radius = 0, largest_radius = 0;  ///< [m]
+  double largest_mass = 0;                      ///< [kg]
 
   size_t size() const { return points.size(); }
   /// Reads the grains from the systems. Error if a position is not finite.

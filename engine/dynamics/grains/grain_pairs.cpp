@@ -92,21 +92,27 @@ void GrainPairs::find_of(const GrainField& grains, double h, uint32_t k, Search&
   const uint32_t i = cells_.place(k);
   const size_t begin = search.found.size();
   const double r = grains.points[i].radius;
+  const Vec3& x = grains.points[i].x;
+  search.partners.clear();
   for (const uint32_t n :
        search.near.of(cells_, k, r * tolerances::grain_margin, int32_t(grains.ordinal[i]))) {
     const uint32_t j = search.near.place(n);
     if (grains.asleep[i] && grains.asleep[j]) continue;
     const double rj = grains.points[j].radius, least = std::min(r, rj);
-    const double closing = (grains.movers[j].v - grains.movers[i].v).norm();
-    const double reach = r + rj + least * tolerances::grain_margin +
-                         std::min(least * tolerances::grain_foresight, h * closing);
-    if ((grains.points[j].x - grains.points[i].x).squaredNorm() <= reach * reach)
-      search.found.push_back({i, j});
+    const double touches = r + rj + least * tolerances::grain_margin;
+    const double foreseen = least * tolerances::grain_foresight;
+    const double square = (grains.points[j].x - x).squaredNorm();
+    if (square > (touches + foreseen) * (touches + foreseen)) continue;
+    // Velocities are read only where they decide, as they are not in the cache.
+    if (square > touches * touches) {
+      const double closing = (grains.movers[j].v - grains.movers[i].v).norm();
+      const double reach = touches + std::min(foreseen, h * closing);
+      if (square > reach * reach) continue;
+    }
+    search.partners.push_back(uint64_t(search.near.ordinal(n)) << 32 | j);
   }
-  std::sort(search.found.begin() + std::ptrdiff_t(begin), search.found.end(),
-            [&](const GrainPair& u, const GrainPair& v) {
-              return grains.ordinal[u.b] < grains.ordinal[v.b];
-            });
+  std::ranges::sort(search.partners);
+  for (const uint64_t partner : search.partners) search.found.push_back({i, uint32_t(partner)});
   counts_[i] = uint32_t(search.found.size() - begin);
 }
 

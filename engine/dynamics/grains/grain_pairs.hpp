@@ -30,7 +30,8 @@ class GrainPairs {
   /// Work of one thread.
   struct Search {
     GrainCells::Near near;
-    std::vector<GrainPair> found;  ///< grain by grain, in the order of the cells
+    std::vector<GrainPair> found;    ///< grain by grain, in the order of the cells
+    std::vector<uint64_t> partners;  ///< of one grain: ordinal in the upper half, and place
     std::vector<uint32_t> roused;
     uint32_t first = 0, last = 0;  ///< range of grains in that order
   };

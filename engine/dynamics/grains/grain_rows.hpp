@@ -1,11 +1,12 @@
 #pragma once
 #include "engine/math/types.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace tumble {
 
-/// Velocity and inverse mass of a grain; one cache line.
+/// Velocity and inverse mass of a grain between the parts of a tick; one cache line.
 struct alignas(64) GrainMover {
   Vec3 v = Vec3::Zero();      ///< of the centre [m/s]
   double inverse_mass = 0;    ///< 0 while it sleeps [1/kg]
@@ -17,6 +18,22 @@ struct alignas(64) GrainMover {
 struct alignas(32) GrainPoint {
   Vec3 x = Vec3::Zero();  ///< [m]
   double radius = 0;      ///< [m]
+};
+
+/// The same while contacts are solved; half a cache line. Inverse masses are relative to a unit of
+/// mass (GrainMotion), so that no product of small numbers leaves the range of single precision.
+struct alignas(32) GrainRow {
+  std::array<float, 3> v{};     ///< [m/s]
+  float inverse_mass = 0;       ///< of the unit of mass; 0 while it sleeps [-]
+  std::array<float, 3> spin{};  ///< [rad/s]
+  float inverse_moment = 0;     ///< times the unit of mass; 0 while asleep [1/m2]
+};
+
+/// How far a grain has moved since the beginning of the part: single precision resolves this a
+/// thousand times better than a position.
+struct alignas(16) GrainShift {
+  std::array<float, 3> x{};  ///< [m]
+  float inverse_mass = 0;    ///< as in GrainRow
 };
 
 /// A body that grains touch.

@@ -5,14 +5,18 @@
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 
 namespace tumble {
 namespace {
 
-void copy_places(const GrainField& grains, std::vector<Vec3>& to) {
+void copy_places(const GrainField& grains, std::vector<Vec3>& to, Crew* crew) {
   to.resize(grains.size());
-  for (size_t i = 0; i < grains.size(); ++i) to[i] = grains.points[i].x;
+  for_chunks(crew, grains.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) to[i] = grains.points[i].x;
+  });
 }
 
 /// Whether all grains sleep, as after the last tick, and nothing moves that could wake them.
@@ -46,11 +50,38 @@ bool GrainStage::asked_for(const HandlePool<ParticleSystemTag>& ids,
   return false;
 }
 
-/// Upper bound on the approach speed of any two grains [m/s].
-double GrainStage::closing_speed() const {
-  Aabb v;
-  for (const GrainMover& m : grains_.movers) v.include(m.v);
-  return v.extent().norm();
+/// Number of parts of a tick that keeps approaches short: of any two grains, and of groups of
+/// grains. A few fast grains on a heap at rest do not divide the tick.
+int GrainStage::parts_of(const GrainTick& tick) const {
+  struct Speeds {
+    Aabb single, groups;
+  };
+  constexpr size_t group = tolerances::grain_group;
+  std::array<Speeds, chunk_count> speeds;
+  for_chunks(tick.crew, (grains_.size() + group - 1) / group,
+             [&](size_t chunk, size_t first, size_t last) {
+               for (size_t k = first; k < last; ++k) {
+                 const size_t begin = k * group, end = std::min(begin + group, grains_.size());
+                 Vec3 sum = Vec3::Zero();
+                 for (size_t i = begin; i < end; ++i) {
+                   speeds[chunk].single.include(grains_.movers[i].v);
+                   sum += grains_.movers[i].v;
+                 }
+                 speeds[chunk].groups.include(sum / double(end - begin));
+               }
+             });
+  Speeds all;
+  for (const Speeds& s : speeds) {
+    all.single.include(s.single);
+    all.groups.include(s.groups);
+  }
+  const auto parts = [&](const Aabb& v, double most) {
+    const double fastest = v.extent().norm() + tick.gravity.norm() * tick.h;
+    return std::ceil(fastest * tick.h / (most * grains_.least_radius));
+  };
+  return int(std::clamp(std::max(parts(all.single, tolerances::grain_part),
+                                 parts(all.groups, tolerances::grain_group_part)),
+                        1.0, double(tolerances::most_grain_parts)));
 }
 
 void GrainStage::wake_again(const GrainTick& tick, size_t i) {
@@ -91,11 +122,8 @@ Status GrainStage::step(const GrainTick& tick, GrainTouches& touches, GrainRepor
   }
   report.moved = true;
   bodies_.begin_tick(tick);
-  copy_places(grains_, start_);
-  const double fastest = closing_speed() + tick.gravity.norm() * tick.h;
-  const double parts_wanted =
-      std::ceil(fastest * tick.h / (tolerances::grain_part * grains_.least_radius));
-  const int parts = int(std::clamp(parts_wanted, 1.0, double(tolerances::most_grain_parts)));
+  copy_places(grains_, start_, tick.crew);
+  const int parts = parts_of(tick);
   const int substeps = (substeps_of_tick(tick) + parts - 1) / parts;
   for (int k = 0; k < parts && !stop_requested(); ++k)
     if (Status done =
@@ -124,28 +152,39 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   if (stop_requested()) return stopped_error();
   bundles_.fill(tick, pairs_, grains_, memory_.forces(), hs);
   if (stop_requested()) return stopped_error();
-  find_touched();
-  copy_places(grains_, from_);
-  const GrainPairWork work = solve_grains(
-      {grains_.points, grains_.movers, grains_.acceleration, touched_, bundles_, bodies_.all(),
-       bodies_.walls(), bodies_.held(), tick.settings.restitution_threshold},
-      substeps, hs, tick.crew);
+  find_touched(tick.crew);
+  copy_places(grains_, from_, tick.crew);
+  const GrainPairWork work =
+      solve_grains({grains_.points, grains_.movers, grains_.acceleration, touched_,
+                    grains_.largest_mass, motion_, bundles_, bodies_.all(), bodies_.walls(),
+                    bodies_.held(), tick.settings.restitution_threshold},
+                   substeps, hs, tick.crew);
   if (stop_requested()) return stopped_error();
   auto held = shapes_.hold_back(tick, grains_, from_, t0, t1);
   if (!held) return held.error();
   report.held += *held;
   count(work, report);
   if (stop_requested()) return stopped_error();
-  report.deepest = std::max(report.deepest, bundles_.read(memory_.forces(), hs, tick.crew));
+  report.deepest =
+      std::max(report.deepest, bundles_.read(grains_, memory_.forces(), hs, tick.crew));
   if (stop_requested()) return stopped_error();
   memory_.store(tick, grains_, pairs_, bodies_.walls(), bodies_.held(), hs, touches);
   for (const uint32_t i : memory_.lost()) wake_again(tick, i);
   return {};
 }
 
-void GrainStage::find_touched() {
+void GrainStage::find_touched(Crew* crew) {
   touched_.assign(grains_.size(), 0);
-  for (const GrainPair& p : pairs_.all) touched_[p.a] = touched_[p.b] = 1;
+  // Several threads may mark a grain, all in the same way.
+  const auto mark = [this](uint32_t i) {
+    std::atomic_ref<uint8_t>(touched_[i]).store(1, std::memory_order_relaxed);
+  };
+  for_chunks(crew, pairs_.all.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      mark(pairs_.all[k].a);
+      mark(pairs_.all[k].b);
+    }
+  });
   for (const std::span<GrainBodyRow> rows : {bodies_.walls(), bodies_.held()})
     for (const GrainBodyRow& row : rows) touched_[row.a] = 1;
 }

@@ -29,10 +29,10 @@ class GrainStage {
  private:
   void wake_lost(const GrainTick& tick, const GrainTouches& touches);
   void wake_again(const GrainTick& tick, size_t i);
-  double closing_speed() const;
+  int parts_of(const GrainTick& tick) const;
   Status part(const GrainTick& tick, GrainTouches& touches, double t0, double t1, int substeps,
               GrainReport& report);
-  void find_touched();
+  void find_touched(Crew* crew);
   void count(const GrainPairWork& work, GrainReport& report) const;
   void age(const GrainTick& tick) const;
 
@@ -41,6 +41,7 @@ class GrainStage {
   NearShapes shapes_;
   GrainPairList pairs_;
   GrainBundles bundles_;
+  GrainMotion motion_;
   GrainBodies bodies_;
   GrainMemory memory_;
   GrainRestWatch rest_;

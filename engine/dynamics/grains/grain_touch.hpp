@@ -15,6 +15,7 @@ struct GrainForces {
   std::array<float, 3> turn{};  ///< torque of rolling and torsional friction on b [N m]
   float spare = 0;
 };
+static_assert(sizeof(GrainForces) == 8 * sizeof(float));
 
 /// What is remembered of a contact of a grain from tick to tick: its partners and forces. Forces,
 /// not impulses, so that the length of a sub-step may change.

@@ -15,21 +15,34 @@ HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Coordinates relative to `centre`, of as many grains as there are lanes.
+template <class D>
+HWY_INLINE hn::Vec<D> relative(D lanes, const double* from, double centre) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(lanes, float(*from - centre));
+#else
+  const hn::Half<D> half;
+  const hn::Rebind<double, decltype(half)> wide;
+  const auto middle = hn::Set(wide, centre);
+  const auto lower = hn::DemoteTo(half, hn::Sub(hn::LoadU(wide, from), middle));
+  const auto upper = hn::DemoteTo(half, hn::Sub(hn::LoadU(wide, from + hn::Lanes(half)), middle));
+  return hn::Combine(lanes, upper, lower);
+#endif
+}
+
 size_t AddNearCell(const GrainColumns& from, uint32_t begin, uint32_t end, const double* centre,
                    float half, const GrainsNearCell& to, size_t size) {
-  const hn::CappedTag<double, 8> wide;
-  const hn::Rebind<float, decltype(wide)> lanes;
-  const hn::Rebind<uint32_t, decltype(wide)> places;
-  const hn::Rebind<int32_t, decltype(wide)> ordinals;
-  const auto cx = hn::Set(wide, centre[0]), cy = hn::Set(wide, centre[1]),
-             cz = hn::Set(wide, centre[2]);
+  const hn::CappedTag<float, grain_batch> lanes;
+  const hn::Rebind<uint32_t, decltype(lanes)> places;
+  const hn::Rebind<int32_t, decltype(lanes)> ordinals;
   const auto most = hn::Set(lanes, half);
-  for (size_t k = begin; k < end; k += hn::Lanes(wide)) {
-    const auto x = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.x + k), cx));
-    const auto y = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.y + k), cy));
-    const auto z = hn::DemoteTo(lanes, hn::Sub(hn::LoadU(wide, from.z + k), cz));
+  for (size_t k = begin; k < end; k += hn::Lanes(lanes)) {
+    const auto x = relative(lanes, from.x + k, centre[0]);
+    const auto y = relative(lanes, from.y + k, centre[1]);
+    const auto z = relative(lanes, from.z + k, centre[2]);
     const auto farthest = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
     const auto near = hn::And(hn::Le(farthest, most), hn::FirstN(lanes, end - k));
+    if (hn::AllFalse(lanes, near)) continue;
     // Writes full vectors: on some processors partial writes are very slow.
     const Compressor<decltype(lanes)> compress(near);
     hn::StoreU(compress(x), lanes, to.x + size);

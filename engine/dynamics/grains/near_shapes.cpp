@@ -2,9 +2,11 @@
 
 #include "engine/collision/particle_contacts/gather.hpp"
 #include "engine/collision/shape_near.hpp"
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 namespace tumble {
@@ -29,14 +31,25 @@ Motion NearShapes::motion(const GrainTick& tick, uint32_t body) const {
 }
 
 void NearShapes::collect(const GrainTick& tick, const GrainField& grains) {
+  struct Extent {
+    Aabb awake, all;
+  };
+  std::array<Extent, chunk_count> extents;
+  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
+    Extent& e = extents[chunk];
+    for (size_t i = first; i < last; ++i) {
+      const double reach = grains.points[i].radius * (2 + tolerances::grain_shape_foresight);
+      const Aabb ball = Aabb{grains.points[i].x, grains.points[i].x}.inflated(reach);
+      e.all.include(ball);
+      if (grains.asleep[i]) continue;
+      e.awake.include(ball.inflated(
+          tick.h * (grains.movers[i].v.norm() + tick.h * grains.acceleration[i].norm())));
+    }
+  });
   Aabb awake, all;
-  for (size_t i = 0; i < grains.size(); ++i) {
-    const double reach = grains.points[i].radius * (2 + tolerances::grain_foresight);
-    const Aabb ball = Aabb{grains.points[i].x, grains.points[i].x}.inflated(reach);
-    all.include(ball);
-    if (grains.asleep[i]) continue;
-    awake.include(ball.inflated(
-        tick.h * (grains.movers[i].v.norm() + tick.h * grains.acceleration[i].norm())));
+  for (const Extent& e : extents) {
+    awake.include(e.awake);
+    all.include(e.all);
   }
   parts_.clear(), bounds_.clear(), moving_.clear(), moving_bounds_.clear();
   longest_way_ = 0;
@@ -178,7 +191,7 @@ void NearShapes::touch(const GrainTick& tick, const GrainField& grains, double t
     const double speed = grains.movers[i].v.norm() + h * grains.acceleration[i].norm();
     const auto margin = [&](double way) {
       return r * tolerances::grain_margin +
-             std::min(r * tolerances::grain_foresight, h * (speed + way / tick.h));
+             std::min(r * tolerances::grain_shape_foresight, h * (speed + way / tick.h));
     };
     const double reach = r + margin(longest_way_);
     Clearance& clear = clear_[grains.ordinal[i]];

@@ -3,6 +3,8 @@
 
 #include "engine/dynamics/grains/tolerances.hpp"
 
+#include <algorithm>
+
 // Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -19,7 +21,7 @@ struct GrainSides {
   GrainMoving a, b;
 
   HWY_INLINE GrainSides(const GrainPairView& in, const GrainBundle& c, size_t lane)
-      : a(in.movers, c.a.data() + lane), b(in.movers, c.b.data() + lane) {}
+      : a(in.rows, c.a.data() + lane), b(in.rows, c.b.data() + lane) {}
   /// Velocity of b's surface relative to a's at the contact.
   HWY_INLINE GrainV slip(const GrainV& way, GrainF share) const {
     return b.v - a.v - cross(a.spin + (every_grain(1) - share) * (b.spin - a.spin), way);
@@ -43,111 +45,142 @@ struct GrainSides {
   }
 };
 
-/// Places of the contacts of some lanes. The normal is a unit vector in single precision only:
-/// impulses act along it and velocities are measured along it, and the sweeps correct its error.
+/// Places of the contacts of some lanes.
 struct GrainContactPlace {
   GrainV way, n;
-  GrainF share, gap;
+  GrainF gap;
 
   static HWY_INLINE GrainContactPlace stored(const GrainBundle& c, size_t lane) {
     const GrainV way = load_grain(c.way, lane);
-    return {way, rough_direction(way), load_grain(c.share, lane), load_grain(c.gap, lane)};
+    return {way, direction(way, inverse_or_zero(hn::Sqrt(dot(way, way)))), load_grain(c.gap, lane)};
   }
+  /// Of a contact whose grains have moved.
   static HWY_INLINE GrainContactPlace present(const GrainPairView& in, GrainBundle& c,
                                               size_t lane) {
-    const GrainSpot a(in.points, c.a.data() + lane), b(in.points, c.b.data() + lane);
-    const GrainV way = b.x - a.x;
-    const GrainF distance = hn::Sqrt(dot(way, way)), half = every_grain(0.5);
-    const GrainF gap = distance - (a.radius + b.radius);
-    // share = (r_a + gap / 2) / distance.
-    const GrainF share = half + half * (a.radius - b.radius) * rough_inverse(distance);
-    store_grain(way, c.way, lane);
-    store_grain(share, c.share, lane);
-    store_grain(gap, c.gap, lane);
-    // The stored, rounded values are used here too.
-    return {way, rough_direction(way), load_grain(c.share, lane), load_grain(c.gap, lane)};
+    const GrainShifting a(in.shifts, c.a.data() + lane), b(in.shifts, c.b.data() + lane);
+    const auto at = between(a, b, c, lane);
+    store_grain(at.way, c.way, lane);
+    store_grain(at.gap, c.gap, lane);
+    return at;
+  }
+  static HWY_INLINE GrainContactPlace between(const GrainShifting& a, const GrainShifting& b,
+                                              const GrainBundle& c, size_t lane) {
+    GrainContactPlace at;
+    at.way = load_grain(c.from, lane) + (b.x - a.x);
+    const GrainF distance = hn::Sqrt(dot(at.way, at.way));
+    at.gap = distance - load_grain(c.reach, lane);
+    at.n = direction(at.way, inverse_or_zero(distance));
+    return at;
   }
 
  private:
-  static HWY_INLINE GrainV rough_direction(const GrainV& way) {
-    const GrainF square = dot(way, way);
-    const GrainV n = rough_inverse_root(square) * way;
-    return {n.x, hn::IfThenElse(hn::Gt(square, every_grain(0)), n.y, every_grain(1)), n.z};
+  /// Grains with the same centre have a direction too, in which they part: that of the y axis, from
+  /// the one with the lower key.
+  static HWY_INLINE GrainV direction(const GrainV& way, GrainF inverse) {
+    const auto apart = hn::Gt(inverse, every_grain(0));
+    return {inverse * way.x, hn::IfThenElse(apart, inverse * way.y, every_grain(1)),
+            inverse * way.z};
   }
 };
 
-/// Sums of work by lanes, as GrainWork.
+/// Sums of work by lanes, of the bundles of one range: few enough for single precision.
 struct GrainWorkLanes {
-  GrainF lost, rubbed;
+  alignas(64) std::array<float, grain_lanes> lost{}, rubbed{};
+
+  HWY_INLINE void add(size_t lane, GrainF more_lost, GrainF more_rubbed) {
+    const GrainD d;
+    hn::Store(hn::Load(d, lost.data() + lane) + more_lost, d, lost.data() + lane);
+    hn::Store(hn::Load(d, rubbed.data() + lane) + more_rubbed, d, rubbed.data() + lane);
+  }
+  void add_to(GrainWork& work) const {
+    for (size_t lane = 0; lane < grain_lanes; ++lane) {
+      work.lost[lane] += double(lost[lane]);
+      work.rubbed[lane] += double(rubbed[lane]);
+    }
+  }
 };
-
-HWY_INLINE void add_grain_work(GrainWork& work, size_t lane, const GrainWorkLanes& more) {
-  hn::Store(hn::Load(GrainD(), work.lost.data() + lane) + more.lost, GrainD(),
-            work.lost.data() + lane);
-  hn::Store(hn::Load(GrainD(), work.rubbed.data() + lane) + more.rubbed, GrainD(),
-            work.rubbed.data() + lane);
-}
-
-/// 1 / x, or 0 where x is 0.
-HWY_INLINE GrainF inverse_or_zero(GrainF x) {
-  const auto positive = hn::Gt(x, every_grain(0));
-  return hn::IfThenElseZero(positive, every_grain(1) / hn::IfThenElse(positive, x, every_grain(1)));
-}
 
 /// x, shortened to the length `most` if it is longer.
 HWY_INLINE GrainV shortened(const GrainV& x, GrainF most) {
   const GrainF size2 = dot(x, x);
   const auto longer = hn::Gt(size2, most * most);
   if (hn::AllFalse(GrainD(), longer)) return x;
-  return hn::IfThenElse(longer, most * rough_inverse_root(size2), every_grain(1)) * x;
+  return hn::IfThenElse(longer, most * inverse_or_zero(hn::Sqrt(size2)), every_grain(1)) * x;
 }
 
 /// Solid balls have the moment of inertia 2/5 m r^2, so that the inverse mass for slip at their
 /// surfaces is 7/2 of the sum of inverse masses.
 HWY_INLINE GrainF slip_inverse(GrainF masses) {
-  return every_grain(3.5) * masses;
+  return every_grain(3.5f) * masses;
 }
 
-void FollowPairs(const GrainPairView& in, GrainRange range) {
-  for (uint32_t k = range.begin; k < range.end; ++k)
-    for (size_t lane = 0; lane < grain_lanes; lane += grain_step)
-      GrainContactPlace::present(in, in.bundles[k], lane);
+void ReadForces(const GrainForcesView& from, float unit, GrainBundle& to) {
+  for (size_t lane = 0; lane < grain_lanes; lane += grain_step) {
+    std::array<const float*, grain_step> at;
+    for (size_t k = 0; k < grain_step; ++k)
+      at[k] = reinterpret_cast<const float*>(
+          &from.forces[from.source[std::min(lane + k, size_t(to.lanes - 1))]]);
+    const auto used = hn::FirstN(GrainD(), lane < to.lanes ? to.lanes - lane : 0);
+    const GrainF scale = hn::IfThenElseZero(used, every_grain(unit));
+    const GrainFour t0 = read_four(at.data(), 0);
+    store_grain(scale * t0.x, to.push, lane);
+    store_grain(scale * GrainV{t0.y, t0.z, t0.w}, to.rub, lane);
+    if (!from.turning) continue;
+    const GrainFour t1 = read_four(at.data(), 4);
+    store_grain(scale * GrainV{t1.x, t1.y, t1.z}, from.turning->turn, lane);
+  }
+}
+
+void WriteForces(const GrainForcesView& to, float unit, const GrainBundle& from) {
+  const GrainF scale = every_grain(unit), zero = every_grain(0);
+  for (size_t lane = 0; lane < from.lanes; lane += grain_step) {
+    std::array<float*, grain_step> at;
+    for (size_t k = 0; k < grain_step; ++k)
+      at[k] = reinterpret_cast<float*>(
+          &to.forces[to.source[std::min(lane + k, size_t(from.lanes - 1))]]);
+    const uint32_t mask = ((1u << from.lanes) - 1) >> lane;
+    const GrainV rub = scale * load_grain(from.rub, lane);
+    write_four({scale * load_grain(from.push, lane), rub.x, rub.y, rub.z}, at.data(), mask, 0);
+    const GrainV turn =
+        to.turning ? scale * load_grain(to.turning->turn, lane) : GrainV{zero, zero, zero};
+    write_four({turn.x, turn.y, turn.z, zero}, at.data(), mask, 4);
+  }
+}
+
+HWY_INLINE void warm_start_lanes(const GrainPairView& in, uint32_t k, size_t lane,
+                                 GrainWorkLanes& work) {
+  GrainBundle& c = in.bundles[k];
+  GrainSides sides(in, c, lane);
+  const auto place = GrainContactPlace::stored(c, lane);
+  const GrainF share = load_grain(c.share, lane);
+  const GrainV& n = place.n;
+  const GrainF half = every_grain(0.5f), masses = sides.a.mass + sides.b.mass;
+  const GrainF push = load_grain(c.push, lane);
+  GrainV rub = load_grain(c.rub, lane);
+  rub = rub - dot(n, rub) * n;
+  store_grain(rub, c.rub, lane);
+  const GrainV u = sides.slip(place.way, share);
+  GrainF rubbed = dot(rub, u) + half * dot(rub, rub) * slip_inverse(masses);
+  sides.push(push * n + rub, place.way, share);
+  if (in.turnings) {
+    const GrainV turn = load_grain(in.turnings[k].turn, lane);
+    const GrainV w = sides.b.spin - sides.a.spin;
+    rubbed = rubbed + dot(turn, w) + half * dot(turn, turn) * (sides.a.moment + sides.b.moment);
+    sides.turn(turn);
+  }
+  work.add(lane, push * (dot(n, u) + half * push * masses), rubbed);
+  sides.write(c, lane);
+  if (!c.bounces) return;
+  GrainFloats& most = in.bounces[k].most;
+  store_grain(hn::Max(load_grain(most, lane), push), most, lane);
 }
 
 void WarmStartPairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
-  for (uint32_t k = range.begin; k < range.end; ++k) {
-    GrainBundle& c = in.bundles[k];
-    for (size_t lane = 0; lane < c.lanes; lane += grain_step) {
-      GrainSides sides(in, c, lane);
-      const auto place = GrainContactPlace::stored(c, lane);
-      const GrainV& n = place.n;
-      const GrainF half = every_grain(0.5), masses = sides.a.mass + sides.b.mass;
-      const GrainF push = load_grain(c.push, lane);
-      GrainV rub = load_grain(c.rub, lane);
-      rub = rub - dot(n, rub) * n;
-      store_grain(rub, c.rub, lane);
-      const GrainV u = sides.slip(place.way, place.share);
-      GrainWorkLanes done;
-      done.lost = push * (dot(n, u) + half * push * masses);
-      done.rubbed = dot(rub, u) + half * dot(rub, rub) * slip_inverse(masses);
-      if (in.turnings) {
-        const GrainV turn = load_grain(in.turnings[k].turn, lane);
-        const GrainV w = sides.b.spin - sides.a.spin;
-        done.rubbed =
-            done.rubbed + dot(turn, w) + half * dot(turn, turn) * (sides.a.moment + sides.b.moment);
-        sides.push(push * n + rub, place.way, place.share);
-        sides.turn(turn);
-      } else {
-        sides.push(push * n + rub, place.way, place.share);
-      }
-      add_grain_work(work, lane, done);
-      sides.write(c, lane);
-      if (c.bounces) {
-        GrainFloats& most = in.bounces[k].most;
-        store_grain(hn::Max(load_grain(most, lane), push), most, lane);
-      }
-    }
-  }
+  GrainWorkLanes sum;
+  for (uint32_t k = range.begin; k < range.end; ++k)
+    for (size_t lane = 0; lane < in.bundles[k].lanes; lane += grain_step)
+      warm_start_lanes(in, k, lane, sum);
+  sum.add_to(work);
 }
 
 /// Rolling and torsional friction; returns its work.
@@ -155,123 +188,119 @@ HWY_INLINE GrainF resist_turning(GrainSides& sides, const GrainV& n, GrainF push
                                  size_t lane) {
   const GrainF zero = every_grain(0), moments = sides.a.moment + sides.b.moment;
   const GrainV before = load_grain(t.turn, lane), w = sides.b.spin - sides.a.spin;
-  const GrainV wanted = before - rough_inverse(moments) * w;
+  const GrainV wanted = before - inverse_or_zero(moments) * w;
   const GrainF along = dot(n, wanted), most = load_grain(t.twisting, lane) * push;
   const GrainF about = hn::Min(hn::Max(along, zero - most), most);
   const GrainV rolling = shortened(wanted - along * n, load_grain(t.rolling, lane) * push);
   const GrainV next = about * n + rolling, change = next - before;
   store_grain(next, t.turn, lane);
   sides.turn(change);
-  return dot(change, w) + every_grain(0.5) * dot(change, change) * moments;
+  return dot(change, w) + every_grain(0.5f) * dot(change, change) * moments;
 }
 
-HWY_INLINE void sweep_lanes(const GrainPairView& in, uint32_t k, size_t lane, double inverse_hs,
-                            bool follows, GrainWork& work) {
+HWY_INLINE void sweep_lanes(const GrainPairView& in, uint32_t k, size_t lane, float inverse_hs,
+                            bool follows, GrainWorkLanes& work) {
   GrainBundle& c = in.bundles[k];
+  GrainSides sides(in, c, lane);
+  const GrainF share = load_grain(c.share, lane);
   const auto place =
       follows ? GrainContactPlace::present(in, c, lane) : GrainContactPlace::stored(c, lane);
   const GrainV& n = place.n;
-  GrainSides sides(in, c, lane);
-  const GrainF zero = every_grain(0), half = every_grain(0.5);
-  const GrainF masses = sides.a.mass + sides.b.mass, mass = rough_inverse(masses);
+  const GrainF zero = every_grain(0), half = every_grain(0.5f);
+  const GrainF masses = sides.a.mass + sides.b.mass, mass = inverse_or_zero(masses);
   const GrainF push = load_grain(c.push, lane);
-  GrainWorkLanes done{zero, zero};
-  if (in.turnings) done.rubbed = resist_turning(sides, n, push, in.turnings[k], lane);
+  GrainF rubbed = zero;
+  if (in.turnings) rubbed = resist_turning(sides, n, push, in.turnings[k], lane);
   // Friction.
-  const GrainV u = sides.slip(place.way, place.share);
+  const GrainV u = sides.slip(place.way, share);
   const GrainF un = dot(n, u);
   const GrainV across = u - un * n, rub = load_grain(c.rub, lane);
-  const GrainF slip_mass = every_grain(2.0 / 7) * mass;
+  const GrainF slip_mass = every_grain(2.0f / 7) * mass;
   GrainV next = rub - slip_mass * across;
   next = shortened(next - dot(n, next) * n, load_grain(c.friction, lane) * push);
   store_grain(next, c.rub, lane);
   const GrainV change = next - rub;
-  done.rubbed =
-      done.rubbed + dot(change, across) + half * dot(change, change) * slip_inverse(masses);
+  rubbed = rubbed + dot(change, across) + half * dot(change, change) * slip_inverse(masses);
   // Normals: the gap may at most close. Friction has no effect along them except by rounding.
   const GrainF un_now = un + dot(n, change) * masses;
   const GrainF speed = zero - hn::Max(place.gap, zero) * every_grain(inverse_hs);
   const GrainF pressed = hn::Max(zero, push - mass * (un_now - speed));
   const GrainF more = pressed - push;
   store_grain(pressed, c.push, lane);
-  done.lost = more * (un_now + half * more * masses);
-  sides.push(change + more * n, place.way, place.share);
+  sides.push(change + more * n, place.way, share);
   sides.write(c, lane);
-  add_grain_work(work, lane, done);
+  work.add(lane, more * (un_now + half * more * masses), rubbed);
   if (!c.bounces) return;
   GrainFloats& most = in.bounces[k].most;
   store_grain(hn::Max(load_grain(most, lane), pressed), most, lane);
 }
 
-void SweepPairs(const GrainPairView& in, GrainRange range, double inverse_hs, bool follows,
-                GrainWork& work) {
+template <bool follows>
+HWY_INLINE void sweep_range(const GrainPairView& in, GrainRange range, float inverse_hs,
+                            GrainWork& work) {
+  GrainWorkLanes sum;
   for (uint32_t k = range.begin; k < range.end; ++k)
     for (size_t lane = 0; lane < in.bundles[k].lanes; lane += grain_step)
-      sweep_lanes(in, k, lane, inverse_hs, follows, work);
+      sweep_lanes(in, k, lane, inverse_hs, follows, sum);
+  sum.add_to(work);
+}
+
+void SweepPairs(const GrainPairView& in, GrainRange range, float inverse_hs, bool follows,
+                GrainWork& work) {
+  if (follows)
+    sweep_range<true>(in, range, inverse_hs, work);
+  else
+    sweep_range<false>(in, range, inverse_hs, work);
+}
+
+HWY_INLINE void part_lanes(const GrainPairView& in, const GrainBundle& c, size_t lane) {
+  GrainShifting a(in.shifts, c.a.data() + lane), b(in.shifts, c.b.data() + lane);
+  const auto at = GrainContactPlace::between(a, b, c, lane);
+  const GrainF share = load_grain(c.share, lane), zero = every_grain(0);
+  const GrainF least = load_grain(c.reach, lane) * hn::Min(share, every_grain(1) - share);
+  const GrainF deep = zero - at.gap - every_grain(float(tolerances::grain_slop)) * least;
+  if (hn::AllFalse(GrainD(), hn::Gt(deep, zero))) return;
+  const GrainF part = every_grain(float(tolerances::grain_push_out)) * hn::Max(deep, zero) *
+                      inverse_or_zero(a.mass + b.mass);
+  a.x = a.x - (part * a.mass) * at.n;
+  b.x = b.x + (part * b.mass) * at.n;
+  a.write(uint32_t(c.writes_a) >> lane);
+  b.write(uint32_t(c.writes_b) >> lane);
 }
 
 void PartOverlappingPairs(const GrainPairView& in, GrainRange range) {
-  for (uint32_t k = range.begin; k < range.end; ++k) {
-    const GrainBundle& c = in.bundles[k];
-    for (size_t lane = 0; lane < c.lanes; lane += grain_step) {
-      GrainSpot a(in.points, c.a.data() + lane), b(in.points, c.b.data() + lane);
-      const GrainF slop = every_grain(tolerances::grain_slop) * hn::Min(a.radius, b.radius);
-      const GrainF reach = a.radius + b.radius - slop;
-      const GrainV way = b.x - a.x;
-      const GrainF d2 = dot(way, way);
-      const auto used = hn::FirstN(GrainD(), c.lanes - lane);
-      const auto deep = hn::And(hn::Lt(d2, reach * reach), used);
-      if (hn::AllFalse(GrainD(), deep)) continue;
-      const GrainF mass_a = inverse_masses(in.movers, c.a.data() + lane);
-      const GrainF mass_b = inverse_masses(in.movers, c.b.data() + lane);
-      // Grains in the same place are moved apart along y.
-      const auto apart = hn::Gt(d2, every_grain(0));
-      const GrainF d = hn::Sqrt(hn::IfThenElse(apart, d2, every_grain(1)));
-      const GrainF depth = reach - hn::IfThenElseZero(apart, d);
-      const GrainF part =
-          hn::IfThenElseZero(deep, every_grain(tolerances::grain_push_out) *
-                                       inverse_or_zero(mass_a + mass_b) * depth / d);
-      const GrainV along = {way.x, hn::IfThenElse(apart, way.y, every_grain(1)), way.z};
-      a.x = a.x - (part * mass_a) * along;
-      b.x = b.x + (part * mass_b) * along;
-      a.write(uint32_t(c.writes_a) >> lane);
-      b.write(uint32_t(c.writes_b) >> lane);
-    }
-  }
+  for (uint32_t k = range.begin; k < range.end; ++k)
+    for (size_t lane = 0; lane < in.bundles[k].lanes; lane += grain_step)
+      part_lanes(in, in.bundles[k], lane);
 }
 
-/// The unit vector along `way`.
-HWY_INLINE GrainV direction(const GrainV& way) {
-  const GrainF distance = hn::Sqrt(dot(way, way)), one = every_grain(1);
-  const auto apart = hn::Gt(distance, every_grain(0));
-  const GrainV n = (one / hn::IfThenElse(apart, distance, one)) * way;
-  return {n.x, hn::IfThenElse(apart, n.y, one), n.z};
+HWY_INLINE void bounce_lanes(const GrainPairView& in, uint32_t k, size_t lane,
+                             GrainWorkLanes& work) {
+  GrainBundle& c = in.bundles[k];
+  GrainSides sides(in, c, lane);
+  const auto place = GrainContactPlace::stored(c, lane);
+  const GrainF share = load_grain(c.share, lane), zero = every_grain(0);
+  const GrainF wanted = load_grain(in.bounces[k].speed, lane);
+  const GrainF masses = sides.a.mass + sides.b.mass;
+  const auto acts =
+      hn::And(hn::Gt(wanted, zero), hn::Gt(load_grain(in.bounces[k].most, lane), zero));
+  const GrainF push = load_grain(c.push, lane);
+  const GrainF u = dot(place.n, sides.slip(place.way, share));
+  const GrainF next = hn::Max(zero, push - inverse_or_zero(masses) * (u - wanted));
+  const GrainF more = hn::IfThenElseZero(acts, next - push);
+  store_grain(push + more, c.push, lane);
+  sides.push(more * place.n, place.way, share);
+  sides.write(c, lane);
+  work.add(lane, more * (u + every_grain(0.5f) * more * masses), zero);
 }
 
 void BouncePairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
   if (!in.bounces) return;
-  const GrainF zero = every_grain(0);
-  for (uint32_t k = range.begin; k < range.end; ++k) {
-    GrainBundle& c = in.bundles[k];
-    if (!c.bounces) continue;
-    for (size_t lane = 0; lane < c.lanes; lane += grain_step) {
-      GrainSides sides(in, c, lane);
-      const auto place = GrainContactPlace::stored(c, lane);
-      const GrainV n = direction(place.way);
-      const GrainF wanted = hn::Load(GrainD(), in.bounces[k].speed.data() + lane);
-      const GrainF masses = sides.a.mass + sides.b.mass;
-      const auto acts =
-          hn::And(hn::Gt(wanted, zero), hn::Gt(load_grain(in.bounces[k].most, lane), zero));
-      const GrainF push = load_grain(c.push, lane);
-      const GrainF u = dot(n, sides.slip(place.way, place.share));
-      const GrainF next = hn::Max(zero, push - inverse_or_zero(masses) * (u - wanted));
-      const GrainF more = hn::IfThenElseZero(acts, next - push);
-      store_grain(push + more, c.push, lane);
-      sides.push(more * n, place.way, place.share);
-      sides.write(c, lane);
-      add_grain_work(work, lane, {more * (u + every_grain(0.5) * more * masses), zero});
-    }
-  }
+  GrainWorkLanes sum;
+  for (uint32_t k = range.begin; k < range.end; ++k)
+    for (size_t lane = 0; in.bundles[k].bounces && lane < in.bundles[k].lanes; lane += grain_step)
+      bounce_lanes(in, k, lane, sum);
+  sum.add_to(work);
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -280,19 +309,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tumble {
 
-HWY_EXPORT(FollowPairs);
+HWY_EXPORT(ReadForces);
+HWY_EXPORT(WriteForces);
 HWY_EXPORT(WarmStartPairs);
 HWY_EXPORT(SweepPairs);
 HWY_EXPORT(PartOverlappingPairs);
 HWY_EXPORT(BouncePairs);
 
-void follow_pairs(const GrainPairView& in, GrainRange range) {
-  HWY_DYNAMIC_DISPATCH(FollowPairs)(in, range);
+void read_forces(const GrainForcesView& from, float unit, GrainBundle& to) {
+  HWY_DYNAMIC_DISPATCH(ReadForces)(from, unit, to);
+}
+void write_forces(const GrainForcesView& to, float unit, const GrainBundle& from) {
+  HWY_DYNAMIC_DISPATCH(WriteForces)(to, unit, from);
 }
 void warm_start_pairs(const GrainPairView& in, GrainRange range, GrainWork& work) {
   HWY_DYNAMIC_DISPATCH(WarmStartPairs)(in, range, work);
 }
-void sweep_pairs(const GrainPairView& in, GrainRange range, double inverse_hs, bool follows,
+void sweep_pairs(const GrainPairView& in, GrainRange range, float inverse_hs, bool follows,
                  GrainWork& work) {
   HWY_DYNAMIC_DISPATCH(SweepPairs)(in, range, inverse_hs, follows, work);
 }

@@ -9,29 +9,63 @@ namespace {
 /// Least number of bundles of a colour for which threads are worth their cost.
 constexpr size_t least_of_colour = 16;
 
+GrainShift single(const Vec3& x) {
+  return {{float(x[0]), float(x[1]), float(x[2])}, 0};
+}
+
+void begin_motion(const GrainSystemRows& r, double hs, Crew* crew) {
+  const size_t count = r.points.size();
+  r.motion.rows.resize(count);
+  r.motion.kicks.resize(count);
+  r.motion.shifts.resize(count);
+  for_chunks(crew, count, [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const GrainMover& m = r.movers[i];
+      const auto inverse_mass = float(r.mass_unit * m.inverse_mass);
+      r.motion.rows[i] = {single(m.v).x, inverse_mass, single(m.spin).x,
+                          float(r.mass_unit * m.inverse_moment)};
+      r.motion.shifts[i] = {{}, inverse_mass};
+      r.motion.kicks[i] = single(hs * r.acceleration[i]);
+    }
+  });
+}
+
+/// Takes over the motion of grains with contacts; moves the others, over h seconds.
+void end_motion(const GrainSystemRows& r, double h, Crew* crew) {
+  const auto wide = [](const std::array<float, 3>& x) {
+    return Vec3(double(x[0]), double(x[1]), double(x[2]));
+  };
+  for_chunks(crew, r.points.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      GrainMover& m = r.movers[i];
+      if (r.touched[i]) {
+        r.points[i].x += wide(r.motion.shifts[i].x);
+        m.v = wide(r.motion.rows[i].v);
+        m.spin = wide(r.motion.rows[i].spin);
+      } else {
+        r.points[i].x += h * (m.v + (0.5 * h) * r.acceleration[i]);
+        m.v += h * r.acceleration[i];
+      }
+    }
+  });
+}
+
 class SweepGrains {
  public:
   SweepGrains(const GrainSystemRows& rows, double hs, Crew* crew)
       : r_(rows),
-        in_{rows.points.data(), rows.movers.data(), rows.pairs.all().data(),
+        in_{rows.motion.shifts.data(), rows.motion.rows.data(), rows.pairs.all().data(),
             rows.pairs.turnings().empty() ? nullptr : rows.pairs.turnings().data(),
             rows.pairs.bounces().empty() ? nullptr : rows.pairs.bounces().data()},
-        walls_{rows.points, rows.movers, rows.bodies},
+        walls_{rows.motion.shifts, rows.motion.rows, rows.movers, rows.bodies},
         hs_(hs),
         crew_(crew),
-        work_(rows.pairs.blocks() + chunk_count) {
-    for_chunks(
-        crew_, r_.pairs.all().size(),
-        [&](size_t, size_t first, size_t last) {
-          follow_pairs(in_, {uint32_t(first), uint32_t(last)});
-        },
-        least_of_colour);
-  }
+        work_(rows.pairs.blocks() + chunk_count) {}
 
   /// Contacts between blocks are warm-started first; then each block can be warm-started and swept
   /// at once.
   void substep() {
-    const double rate = 1 / hs_;
+    const auto rate = float(1 / hs_);
     accelerate();
     with_walls([&](std::span<GrainBodyRow> rows) { warm_start(walls_, rows); });
     between([&](GrainRange range, GrainWork& work) { warm_start_pairs(in_, range, work); });
@@ -40,7 +74,7 @@ class SweepGrains {
       sweep_pairs(in_, range, rate, false, work);
     });
     between([&](GrainRange range, GrainWork& work) { sweep_pairs(in_, range, rate, false, work); });
-    with_walls([&](std::span<GrainBodyRow> rows) { sweep(walls_, rows, rate); });
+    with_walls([&](std::span<GrainBodyRow> rows) { sweep(walls_, rows, 1 / hs_); });
     blocks([&](size_t block, GrainRange range, GrainWork&) {
       move(block);
       part_overlapping_pairs(in_, range);
@@ -48,16 +82,13 @@ class SweepGrains {
     time_ += hs_;
     between([&](GrainRange range, GrainWork&) { part_overlapping_pairs(in_, range); });
     with_walls([&](std::span<GrainBodyRow> rows) { part_overlapping(walls_, rows, time_); });
-    // Contacts have moved with the grains: impulses act at their present places.
+    // Contacts have moved with the grains: impulses act at their present places, and the next
+    // sub-step begins with the gaps that are left now.
     blocks([&](size_t, GrainRange range, GrainWork& work) {
       sweep_pairs(in_, range, rate, true, work);
     });
     between([&](GrainRange range, GrainWork& work) { sweep_pairs(in_, range, rate, true, work); });
-    with_walls([&](std::span<GrainBodyRow> rows) {
-      follow(walls_, rows, time_);
-      sweep(walls_, rows, rate);
-      count_impulses(rows);
-    });
+    with_walls([&](std::span<GrainBodyRow> rows) { follow(walls_, rows, time_, 1 / hs_); });
   }
   void bounce() {
     blocks([&](size_t, GrainRange range, GrainWork& work) { bounce_pairs(in_, range, work); });
@@ -70,27 +101,28 @@ class SweepGrains {
     GrainPairWork sum;
     for (const GrainWork& w : work_)
       for (size_t lane = 0; lane < grain_lanes; ++lane) {
-        sum.lost += w.lost[lane];
-        sum.rubbed += w.rubbed[lane];
+        sum.lost += r_.mass_unit * w.lost[lane];
+        sum.rubbed += r_.mass_unit * w.rubbed[lane];
       }
     return sum;
   }
 
  private:
   void accelerate() {
+    GrainRow* rows = r_.motion.rows.data();
+    const GrainShift* kicks = r_.motion.kicks.data();
     for_chunks(crew_, r_.points.size(), [&](size_t, size_t first, size_t last) {
-      for (size_t i = first; i < last; ++i) r_.movers[i].v += hs_ * r_.acceleration[i];
+      for (size_t i = first; i < last; ++i)
+        for (size_t axis = 0; axis < 3; ++axis) rows[i].v[axis] += kicks[i].x[axis];
     });
   }
-  /// Grains that touch nothing move along exact parabolas.
   void move(size_t block) {
     const size_t first = block * grain_block,
                  last = std::min(first + grain_block, r_.points.size());
-    for (size_t i = first; i < last; ++i) {
-      Vec3 v = r_.movers[i].v;
-      if (!r_.touched[i]) v -= (0.5 * hs_) * r_.acceleration[i];
-      r_.points[i].x += hs_ * v;
-    }
+    const auto hs = float(hs_);
+    for (size_t i = first; i < last; ++i)
+      for (size_t axis = 0; axis < 3; ++axis)
+        r_.motion.shifts[i].x[axis] += hs * r_.motion.rows[i].v[axis];
   }
   // Every pass over all contacts checks for a stop; the results of a stopped tick are discarded.
   template <class F>
@@ -144,9 +176,11 @@ class SweepGrains {
 }  // namespace
 
 GrainPairWork solve_grains(const GrainSystemRows& rows, int substeps, double hs, Crew* crew) {
+  begin_motion(rows, hs, crew);
   SweepGrains sweeps(rows, hs, crew);
   for (int k = 0; k < substeps && !stop_requested(); ++k) sweeps.substep();
   sweeps.bounce();
+  end_motion(rows, substeps * hs, crew);
   return sweeps.work();
 }
 

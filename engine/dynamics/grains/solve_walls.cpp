@@ -8,10 +8,32 @@
 namespace tumble {
 namespace {
 
+/// The grain of a row, in double precision; written back at the end.
+struct WallGrain {
+  GrainRow& to;
+  Vec3 v, spin;
+  double inverse_mass, inverse_moment;
+
+  WallGrain(GrainRow& row, const GrainMover& mover)
+      : to(row),
+        v(double(row.v[0]), double(row.v[1]), double(row.v[2])),
+        spin(double(row.spin[0]), double(row.spin[1]), double(row.spin[2])),
+        inverse_mass(mover.inverse_mass),
+        inverse_moment(mover.inverse_moment) {}
+  WallGrain(const WallGrain&) = delete;
+  WallGrain& operator=(const WallGrain&) = delete;
+  ~WallGrain() {
+    for (int axis = 0; axis < 3; ++axis) {
+      to.v[size_t(axis)] = float(v[axis]);
+      to.spin[size_t(axis)] = float(spin[axis]);
+    }
+  }
+};
+
 /// One row with its grain and body.
 struct WallSolver {
   GrainBodyRow& row;
-  GrainMover& a;
+  WallGrain& a;
   GrainBody& b;
 
   Vec3 slip() const {
@@ -57,7 +79,8 @@ struct WallSolver {
     row.rubbed += change.dot(w) + 0.5 * change.squaredNorm() / row.turn_mass;
     turn(change);
   }
-  void resist_slip() const {
+  /// Returns the normal velocity after it [m/s].
+  double resist_slip() const {
     const Vec3 u = slip();
     const Vec3 across = u - row.n.dot(u) * row.n;
     Vec3 next = row.rub - row.slip_mass * across;
@@ -68,10 +91,12 @@ struct WallSolver {
     row.rub = next;
     row.rubbed += change.dot(across) + 0.5 * change.squaredNorm() / row.slip_mass;
     push(change);
+    // Friction on a grain alone acts across the normal.
+    return row.n.dot(b.gives_way ? slip() : u);
   }
-  /// Applies a normal impulse so that the surfaces separate at no less than `speed`.
-  void part_with(double speed) const {
-    const double u = row.n.dot(slip());
+  /// Applies a normal impulse so that the surfaces, whose normal velocity is `u`, separate at no
+  /// less than `speed`.
+  void part_with(double speed, double u) const {
     const double next = std::max(0.0, row.push - row.normal_mass * (u - speed));
     const double change = next - row.push;
     row.push = next;
@@ -81,57 +106,71 @@ struct WallSolver {
   }
   void sweep(double inverse_hs) const {
     if (row.turn_mass > 0) resist_turning();
-    resist_slip();
+    const double u = resist_slip();
     // The gap may at most close.
-    part_with(row.gap > 0 ? -row.gap * inverse_hs : row.lift * std::max(0.0, -row.gap - row.slop));
+    part_with(row.gap > 0 ? -row.gap * inverse_hs : row.lift * std::max(0.0, -row.gap - row.slop),
+              u);
   }
 };
 
-WallSolver solver(const GrainWalls& in, GrainBodyRow& row) {
-  return {row, in.movers[row.a], in.bodies[row.b]};
+/// Calls f(solver) for each row.
+template <class F>
+void each_row(const GrainWalls& in, std::span<GrainBodyRow> rows, const F& f) {
+  for (GrainBodyRow& row : rows) {
+    WallGrain grain(in.rows[row.a], in.movers[row.a]);
+    f(WallSolver{row, grain, in.bodies[row.b]});
+  }
 }
 
-void follow(const GrainWalls& in, GrainBodyRow& row, double time) {
-  row.gap = row.gap_from - row.n.dot(in.points[row.a].x - row.from) + row.drift * time;
+void follow(const GrainShift& shift, GrainBodyRow& row, double time) {
+  const Vec3 moved(double(shift.x[0]), double(shift.x[1]), double(shift.x[2]));
+  row.gap = row.gap_from - row.n.dot(moved) + row.drift * time;
+}
+
+/// Moves the grain out of overlap.
+void part_overlapping(GrainShift& shift, const GrainBodyRow& row) {
+  const double deep = -(row.gap + row.slop);
+  if (!(deep > 0)) return;
+  for (int axis = 0; axis < 3; ++axis)
+    shift.x[size_t(axis)] -= float(tolerances::grain_push_out * deep * row.n[axis]);
 }
 
 }  // namespace
 
 void warm_start(const GrainWalls& in, std::span<GrainBodyRow> rows) {
-  for (GrainBodyRow& row : rows) solver(in, row).warm_start();
+  each_row(in, rows, [](const WallSolver& s) { s.warm_start(); });
 }
 
 void sweep(const GrainWalls& in, std::span<GrainBodyRow> rows, double inverse_hs) {
-  for (GrainBodyRow& row : rows) solver(in, row).sweep(inverse_hs);
+  each_row(in, rows, [inverse_hs](const WallSolver& s) { s.sweep(inverse_hs); });
 }
 
 void part_overlapping(const GrainWalls& in, std::span<GrainBodyRow> rows, double time) {
   for (GrainBodyRow& row : rows) {
-    follow(in, row, time);
-    const double deep = -(row.gap + row.slop);
-    if (deep > 0) in.points[row.a].x -= (tolerances::grain_push_out * deep) * row.n;
+    follow(in.shifts[row.a], row, time);
+    part_overlapping(in.shifts[row.a], row);
   }
 }
 
-void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time) {
-  for (GrainBodyRow& row : rows) follow(in, row, time);
-}
-
-void count_impulses(std::span<GrainBodyRow> rows) {
-  for (GrainBodyRow& row : rows) {
+void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time, double inverse_hs) {
+  each_row(in, rows, [&](const WallSolver& s) {
+    GrainBodyRow& row = s.row;
+    follow(in.shifts[row.a], row, time);
+    s.sweep(inverse_hs);
     row.given -= row.push * row.n;
     row.rubbing -= row.rub;
     row.turning -= row.turn;
-  }
+  });
 }
 
 void bounce(const GrainWalls& in, std::span<GrainBodyRow> rows, double threshold) {
-  for (GrainBodyRow& row : rows) {
-    if (row.restitution == 0 || row.approach > -threshold || row.most == 0) continue;
+  each_row(in, rows, [threshold](const WallSolver& s) {
+    GrainBodyRow& row = s.row;
+    if (row.restitution == 0 || row.approach > -threshold || row.most == 0) return;
     row.given += row.push * row.n;
-    solver(in, row).part_with(-row.restitution * row.approach);
+    s.part_with(-row.restitution * row.approach, row.n.dot(s.slip()));
     row.given -= row.push * row.n;
-  }
+  });
 }
 
 }  // namespace tumble

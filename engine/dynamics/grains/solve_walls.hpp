@@ -7,8 +7,9 @@ namespace tumble {
 
 /// The grains and bodies of rows between them.
 struct GrainWalls {
-  std::span<GrainPoint> points;
-  std::span<GrainMover> movers;
+  std::span<GrainShift> shifts;
+  std::span<GrainRow> rows;
+  std::span<const GrainMover> movers;  ///< their inverse masses
   std::span<GrainBody> bodies;
 };
 
@@ -18,10 +19,9 @@ void warm_start(const GrainWalls& in, std::span<GrainBodyRow> rows);
 void sweep(const GrainWalls& in, std::span<GrainBodyRow> rows, double inverse_hs);
 /// Moves grains out of overlap, `time` seconds after the beginning of the part.
 void part_overlapping(const GrainWalls& in, std::span<GrainBodyRow> rows, double time);
-/// Updates gaps to the present positions.
-void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time);
-/// Adds the impulses of a sub-step to those of the part.
-void count_impulses(std::span<GrainBodyRow> rows);
+/// The second sweep of a sub-step, at that time: updates gaps to the present positions, sweeps, and
+/// adds the impulses of the sub-step to those of the part.
+void follow(const GrainWalls& in, std::span<GrainBodyRow> rows, double time, double inverse_hs);
 /// Applies restitution, and adds its impulses to those of the part.
 void bounce(const GrainWalls& in, std::span<GrainBodyRow> rows, double threshold);
 

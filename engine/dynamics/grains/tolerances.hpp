@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 /// Constants of this folder that are no settings: unit, reason, and source where there is one.
@@ -15,12 +16,22 @@ inline constexpr double grain_cell = 4;
 /// Gap within which contacts are foreseen, beyond the approach in the part [radii]: resting grains
 /// keep their contacts while they tremble.
 inline constexpr double grain_margin = 0.02;
-/// Greatest gap at which contacts are foreseen [radii]: a contact plane at a farther point would
-/// stop grains that pass beside it.
-inline constexpr double grain_foresight = 1.0;
+/// Greatest gap at which contacts of two grains are foreseen [radii]: with it and the margin, their
+/// distance is the edge of a cell. Their direction follows them from sub-step to sub-step.
+inline constexpr double grain_foresight = 1.95;
+/// The same for shapes: a contact plane, which stays where it is for a part, would stop grains that
+/// pass beside a farther point of a shape.
+inline constexpr double grain_shape_foresight = 1.0;
 /// Greatest approach of two grains in a part of a tick [least radii]: half a radius more than is
 /// foreseen, so that they never pass each other's centre unseen.
-inline constexpr double grain_part = 1.5;
+inline constexpr double grain_part = 2.45;
+/// Number of grains next to each other along the curve whose mean velocity says how fast many
+/// grains are [-]: the least that a single fast grain does not decide.
+inline constexpr size_t grain_group = 4;
+/// Greatest approach of two such groups in a part of a tick [least radii]. It is less than that of
+/// two grains, because collisions that follow from a first one are foreseen only from part to part:
+/// where many grains are fast, many would overlap.
+inline constexpr double grain_group_part = 1.5;
 /// Most parts of a tick [-]: faster grains penetrate heaps, and are pushed out.
 inline constexpr int most_grain_parts = 4;
 

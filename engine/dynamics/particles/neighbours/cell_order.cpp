@@ -98,6 +98,10 @@ void CellOrder::list_cells(std::span<const Vec3> points) {
     return std::array{cell_coordinate(x[0], size_), cell_coordinate(x[1], size_),
                       cell_coordinate(x[2], size_)};
   };
+  // Equal keys are those of one cell unless coordinates wrap around.
+  const double most = double(middle - 1) * size_;
+  const bool wraps = std::ranges::any_of(
+      points, [most](const Vec3& x) { return !(x.cwiseAbs().maxCoeff() < most); });
   const size_t n = keyed_.size();
   order_.resize(n);
   cells_.clear();
@@ -105,14 +109,18 @@ void CellOrder::list_cells(std::span<const Vec3> points) {
     const auto first = cell_of(keyed_[begin].index);
     bool same = true;
     for (end = begin; end < n && keyed_[end].key == keyed_[begin].key; ++end)
-      same = same && cell_of(keyed_[end].index) == first;
+      same = same && (!wraps || cell_of(keyed_[end].index) == first);
     if (!same)
       std::stable_sort(
           keyed_.begin() + ptrdiff_t(begin), keyed_.begin() + ptrdiff_t(end),
           [&](const Keyed& a, const Keyed& b) { return cell_of(a.index) < cell_of(b.index); });
+    for (size_t p = begin; p < end; ++p) order_[p] = keyed_[p].index;
+    if (same) {
+      cells_.push_back({first[0], first[1], first[2], uint32_t(begin), uint32_t(end)});
+      continue;
+    }
     for (size_t p = begin; p < end; ++p) {
-      order_[p] = keyed_[p].index;
-      const auto [i, j, k] = same ? first : cell_of(order_[p]);
+      const auto [i, j, k] = cell_of(order_[p]);
       if (p == begin || !cells_.back().at(i, j, k))
         cells_.push_back({i, j, k, uint32_t(p), uint32_t(p)});
       ++cells_.back().end;
