@@ -44,6 +44,11 @@ TEST_CASE("a smoothing kernel integrates to one and its slope is its derivative"
       const double r = (k + 0.5) * kernel.reach() / shells;
       sum += 4 * std::numbers::pi * r * r * kernel.value(r) * kernel.reach() / shells;
     }
+    double steepest = 0;
+    for (int k = 0; k < int(shells); ++k)
+      steepest = std::max(steepest, -kernel.slope((k + 0.5) * kernel.reach() / shells));
+    CHECK(kernel.steepest() == doctest::Approx(steepest).epsilon(1e-6));
+    CHECK(kernel.steepest() >= steepest);
     CHECK(sum == doctest::Approx(1).epsilon(1e-6));
     for (double r = 0.01; r < 0.3; r += 0.013) {
       const double difference = (kernel.value(r + 1e-7) - kernel.value(r - 1e-7)) / 2e-7;
@@ -188,10 +193,6 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
       open.set(k, vu, vu.dot(points[k]));
       differ.set(k, vu, volume[k]);
     }
-    FluidTriples three;
-    three.resize(places);
-    for (size_t k = 0; k + 1 < places; ++k)
-      three.put(k, {{push.data()[k], open.data()[k], differ.data()[k]}});
     const auto at = [&](size_t k) { return points[k]; };
     const auto speed = [&](size_t k) { return u[k]; };
     for (size_t i = 0; i < x.size(); i += 7) {
@@ -231,8 +232,6 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         store.clear(kernel, lists.of(i).size());
         const FluidPairSums s =
             find_pairs(kernel, FluidMoments::found, {points.data(), places}, i, lists.of(i), store);
-        FluidTriple tripled;
-        sum_pairs(store, FluidFactor::slope, i, {&s.range, 1}, three.data(), q.data(), &tripled);
         const auto sum = [&](FluidFactor factor, const FluidVectors& y, const double* of) {
           FluidVector found;
           sum_pairs(store, factor, i, {&s.range, 1}, y.data(), of, &found);
@@ -252,13 +251,6 @@ TEST_CASE("sums over neighbours are those term by term, for every instruction se
         CHECK(s.slopes == doctest::Approx(slopes).epsilon(1e-6));
         CHECK((s.moment - moment).norm() <= 1e-6 * moment.norm());
         CHECK((s.square_matrix - square_matrix).norm() <= 1e-6 * square_matrix.norm());
-        // Twelve numbers are three times four.
-        const FluidVectors* const each[] = {&push, &open, &differ};
-        for (size_t k = 0; k < 3; ++k) {
-          const FluidVector four = sum(FluidFactor::slope, *each[k], q.data());
-          CHECK(tripled.parts[k].vector() == four.vector());
-          CHECK(tripled.parts[k].w == four.w);
-        }
         // One factor for all: a pair's is the same for both, and then what they exchange is.
         CHECK(sum(FluidFactor::slope, differ, nullptr).w ==
               doctest::Approx(s.slopes).epsilon(1e-12));
@@ -284,13 +276,13 @@ namespace {
 struct BlockCloud {
   SmoothingKernel kernel{FluidKernelKind::cubic_spline, 0.25};
   NeighbourLists lists;
-  std::vector<FluidVector> points, centres;
+  std::vector<FluidVector> points;
   std::vector<Mat3> correction;
-  std::vector<BlockMatrix> matrices;
-  std::vector<BlockFlow> flows;
+  std::vector<SingleVector> flows, gradients;
   std::vector<float> weights;
-  std::vector<SingleVector> gradients;
+  FluidPairStore store;
   FluidBlocks blocks;
+  std::vector<uint32_t> firsts, copies;
 
   explicit BlockCloud(size_t n) {
     Random r(5);
@@ -298,39 +290,37 @@ struct BlockCloud {
     for (Vec3& p : x) p = Vec3(r.uniform(200, 203), r.uniform(-70, -69), r.uniform(0, 1));
     REQUIRE(lists.update(x, {.reach = kernel.reach(), .skin = 0, .box = {}}, nullptr));
     for (size_t k = 0; k < lists.places(); ++k)
-      points.push_back({lists.x()[k], lists.y()[k], lists.z()[k], k < n ? 1.0 : 0.0});
+      points.push_back({lists.x()[k], lists.y()[k], lists.z()[k], k < n ? r.uniform(0.5, 1) : 0.0});
     size_t most = 0;
     for (size_t p = 0; p < n; ++p) most += lists.of(p).size();
-    FluidPairStore store;
     store.clear(kernel, most);
     std::vector<FluidPairStore::Range> ranges;
     for (size_t p = 0; p < n; ++p)
       ranges.push_back(
           find_pairs(kernel, FluidMoments::left_out, points, p, lists.of(p), store).range);
-    REQUIRE(blocks.make(store, 0, ranges, points, kernel.reach()));
-    matrices.resize(n), flows.resize(n);
+    REQUIRE(blocks.make(store, 0, ranges, lists.places()));
     const auto draw = [&] { return float(r.uniform(-1, 1)); };
-    for (size_t b = 0; b < blocks.size(); ++b) {
-      const Vec3 c = blocks[b].centre;
-      centres.push_back({c[0], c[1], c[2], 0});
-      for (size_t k = 0; k < blocks[b].ends.size(); ++k) {
-        const size_t p = blocks[b].first + k;
-        const Vec3 at = (points[p].vector() - c) / kernel.reach();
-        flows[p].at = matrices[p].at = {float(at[0]), float(at[1]), float(at[2]), float(b)};
-        flows[p].u = {draw(), draw(), draw(), 0};
-        weights.push_back(float(r.uniform(0, 1)));
-        gradients.push_back({draw(), draw(), draw(), float(r.uniform(0.5, 1))});
-        const float xx = draw(), xy = draw(), xz = draw(), yy = draw(), yz = draw(), zz = draw();
-        matrices[p].correction[0] = {xx, xy, xz, 0};
-        matrices[p].correction[1] = {xy, yy, yz, 0};
-        matrices[p].correction[2] = {xz, yz, zz, 0};
-        correction.push_back(Mat3{xx, xy, xz, xy, yy, yz, xz, yz, zz});
-      }
+    for (size_t p = 0; p < n; ++p) {
+      flows.push_back({draw(), draw(), draw(), 0});
+      weights.push_back(float(r.uniform(0, 1)));
+      gradients.push_back({draw(), draw(), draw(), float(r.uniform(0.5, 1))});
+      const double xx = r.uniform(-1, 1), xy = r.uniform(-1, 1), xz = r.uniform(-1, 1),
+                   yy = r.uniform(-1, 1), yz = r.uniform(-1, 1), zz = r.uniform(-1, 1);
+      correction.push_back(Mat3{xx, xy, xz, xy, yy, yz, xz, yz, zz});
     }
+    std::vector<std::vector<uint32_t>> rows_of(n);
+    for (size_t b = 0; b < blocks.size(); ++b)
+      for (size_t row = 0; row < blocks[b].rows.size(); ++row)
+        rows_of[blocks[b].rows[row]].push_back(uint32_t(blocks[b].first_row + row));
+    for (const std::vector<uint32_t>& rows : rows_of) {
+      firsts.push_back(uint32_t(copies.size()));
+      copies.insert(copies.end(), rows.begin(), rows.end());
+    }
+    firsts.push_back(uint32_t(copies.size()));
   }
-  BlockOperands operands(bool corrected) {
-    return {kernel.reach(), centres.data(), corrected ? matrices.data() : nullptr,
-            flows.data(),   weights.data(), gradients.data()};
+  BlockPoints of(bool corrected) const {
+    return {points.data(), corrected ? correction.data() : nullptr, kernel.reach(),
+            kernel.steepest() * kernel.reach() / kernel.scale()};
   }
   static Vec3 vector(const SingleVector& v) { return {double(v.x), double(v.y), double(v.z)}; }
   /// f(other, slope in units of the store, way from it in reaches) for what is in reach of p.
@@ -345,11 +335,77 @@ struct BlockCloud {
   }
 };
 
+/// What sums over blocks make of a cloud.
+struct BlockResults {
+  std::vector<SingleVector> sums, flows;
+  std::vector<float> opened, units;
+  std::vector<FluidVector> own, pushes;  ///< in double; pushes of all rows of a particle
+
+  BlockResults(const BlockCloud& cloud, bool corrected)
+      : sums(cloud.flows.size()),
+        flows(cloud.flows),
+        opened(sums.size()),
+        units(sums.size()),
+        own(sums.size()),
+        pushes(sums.size()) {
+    const size_t n = sums.size();
+    std::vector<BlockPairs> pairs(cloud.store.used() / FluidPairStore::batch + 1);
+    std::vector<float> volumes;
+    for (const FluidVector& at : cloud.points) volumes.push_back(float(at.w));
+    std::vector<BlockRow> rows(cloud.blocks.rows());
+    std::vector<FluidVector> exact_rows(rows.size());
+    const BlockCopies copies{cloud.firsts.data(), cloud.copies.data()};
+    const std::vector<double> weights(cloud.weights.begin(), cloud.weights.end());
+    spread_flows(copies, 0, n, flows.data(), rows.data());
+    for (size_t b = 0; b < cloud.blocks.size(); ++b) {
+      const FluidBlock block = cloud.blocks[b];
+      const size_t all = block.ends.size(), first = block.first;
+      BlockPair* own_pairs = pairs[block.first_pair / FluidPairStore::batch].all;
+      BlockRow* own_rows = rows.data() + block.first_row;
+      make_pairs(cloud.of(corrected), block, volumes.data(), own_pairs, units.data() + first,
+                 sums.data() + first);
+      std::vector<float> by_units;
+      for (size_t p = first; p < first + all; ++p) by_units.push_back(units[p] * cloud.weights[p]);
+      for (const auto& [from, to] : {std::pair{size_t{0}, all / 3}, {all / 3, all}}) {
+        open_pairs(block, own_pairs, own_rows, from, to, opened.data() + first + from);
+        press_pairs(block, own_pairs, by_units.data() + from, from, to, own_rows);
+      }
+      for (size_t p = first; p < first + all; ++p) opened[p] *= units[p];
+      FluidVector* own_exact = exact_rows.data() + block.first_row;
+      for (size_t r = 0; r < block.rows.size(); ++r)
+        own_exact[r] = {0, 0, 0, cloud.points[block.rows[r]].w};
+      press_exactly(cloud.of(corrected), block, weights.data(), own_exact, own.data() + first);
+    }
+    flow_by_pushes(copies, 0, n, cloud.gradients.data(), cloud.weights.data(), flows.data(),
+                   rows.data());
+    bool spread = true;
+    for (size_t p = 0; p < n; ++p)
+      for (size_t k = cloud.firsts[p]; k < cloud.firsts[p + 1]; ++k) {
+        const FluidVector& row = exact_rows[cloud.copies[k]];
+        pushes[p].x += row.x, pushes[p].y += row.y, pushes[p].z += row.z;
+        const BlockRow& left = rows[cloud.copies[k]];
+        spread = spread && row.w == cloud.points[p].w &&
+                 BlockCloud::vector(left.flow) == BlockCloud::vector(flows[p]) &&
+                 BlockCloud::vector(left.push) == Vec3::Zero();
+      }
+    CHECK(spread);
+  }
+  std::vector<double> numbers() const {
+    std::vector<double> all(opened.begin(), opened.end());
+    for (const auto* of : {&sums, &flows})
+      for (const SingleVector& v : *of)
+        all.insert(all.end(), {double(v.x), double(v.y), double(v.z)});
+    for (const auto* of : {&own, &pushes})
+      for (const FluidVector& v : *of) all.insert(all.end(), {v.x, v.y, v.z});
+    return all;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("blocks have each particle once, and each of its neighbours in a row") {
-  const BlockCloud cloud(2000);
-  CHECK(cloud.blocks.size() > 7);
+  const BlockCloud cloud(9000);
+  CHECK(cloud.blocks.size() == 3);
   size_t next = 0;
   for (size_t b = 0; b < cloud.blocks.size(); ++b) {
     const FluidBlock block = cloud.blocks[b];
@@ -361,10 +417,18 @@ TEST_CASE("blocks have each particle once, and each of its neighbours in a row")
     size_t k = 0;
     for (size_t n = 0; n < block.ends.size(); ++n) {
       std::vector<uint32_t> found, expected;
-      for (; k < block.ends[n]; ++k)
-        if (block.slopes[k] != 0) found.push_back(block.rows[block.others[k]]);
-      cloud.each_in_reach(block.first + n,
-                          [&](size_t q, double, const Vec3&) { expected.push_back(uint32_t(q)); });
+      // Single precision does not tell on which side of the reach a pair is that is nearly there.
+      const auto nearly = [&](size_t q) {
+        const Vec3 d = cloud.points[block.first + n].vector() - cloud.points[q].vector();
+        return d.norm() > (1 - 1e-6) * cloud.kernel.reach();
+      };
+      for (; k < block.ends[n]; ++k) {
+        const uint32_t q = block.rows[block.others[k]];
+        if (block.slopes[k] != 0 && !nearly(q)) found.push_back(q);
+      }
+      cloud.each_in_reach(block.first + n, [&](size_t q, double, const Vec3&) {
+        if (!nearly(q)) expected.push_back(uint32_t(q));
+      });
       std::sort(found.begin(), found.end());
       CHECK(found == expected);
     }
@@ -397,7 +461,7 @@ struct MadeUpLists {
     }
   }
   bool make(FluidBlocks& blocks, const std::vector<FluidVector>& points) const {
-    return blocks.make(store, 0, ranges, points, kernel.reach());
+    return blocks.make(store, 0, ranges, points.size());
   }
 };
 
@@ -412,7 +476,8 @@ TEST_CASE("a block has no more rows than its pairs can name") {
   CHECK_FALSE(MadeUpLists({{1, most + 4}}).make(blocks, points));
   // Each of two has room by itself, and both together have none.
   const uint32_t count = 40000;
-  REQUIRE(MadeUpLists({{2, count}, {2 + count, count}}).make(blocks, points));
+  const MadeUpLists two({{2, count}, {2 + count, count}});
+  REQUIRE(two.make(blocks, points));
   REQUIRE(blocks.size() == 2);
   for (uint32_t b = 0; b < 2; ++b) {
     const FluidBlock block = blocks[b];
@@ -427,63 +492,53 @@ TEST_CASE("a block has no more rows than its pairs can name") {
   }
 }
 
-TEST_CASE("particles that are far apart are in different blocks") {
-  const MadeUpLists made({{0, 4}, {0, 4}});
-  for (const double reaches : {5.0, 7.0}) {
-    CAPTURE(reaches);
-    std::vector<FluidVector> points(8);
-    points[1].y = reaches * made.kernel.reach();
-    FluidBlocks blocks;
-    REQUIRE(made.make(blocks, points));
-    CHECK(blocks.size() == (reaches > 6 ? 2 : 1));
-    CHECK(blocks[0].centre[1] == (reaches > 6 ? 0 : points[1].y / 2));
-  }
-}
-
 TEST_CASE("sums over blocks are those pair by pair, for every instruction set") {
-  BlockCloud cloud(1000);
-  const std::vector<BlockFlow> given = cloud.flows;
+  const BlockCloud cloud(5000);
+  REQUIRE(cloud.blocks.size() == 2);
   for (const bool corrected : {false, true}) {
     CAPTURE(corrected);
     const auto matrix = [&](size_t p) {
       return corrected ? cloud.correction[p] : Mat3(Mat3::Identity());
     };
-    std::vector<float> bits;
+    const BlockResults found(cloud, corrected);
     for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
       hwy::SetSupportedTargetsForTest(target);
-      cloud.flows = given;
-      const BlockOperands of = cloud.operands(corrected);
-      BlockScratch scratch;
-      std::vector<float> now;
-      for (size_t b = 0; b < cloud.blocks.size(); ++b) {
-        const FluidBlock block = cloud.blocks[b];
-        std::vector<float> rates(block.ends.size());
-        open_block(of, block, rates.data(), scratch);
-        now.insert(now.end(), rates.begin(), rates.end());
-      }
-      // These make flows anew: the rates above were of those that were given.
-      for (size_t b = 0; b < cloud.blocks.size(); ++b) press_block(of, cloud.blocks[b], scratch);
-      for (const BlockFlow& flow : cloud.flows)
-        now.insert(now.end(), {flow.u.x, flow.u.y, flow.u.z});
-      if (bits.empty()) bits = now;
-      CHECK(bits == now);
+      CHECK(BlockResults(cloud, corrected).numbers() == found.numbers());
     }
     hwy::SetSupportedTargetsForTest(0);
-    const size_t n = given.size();
-    for (size_t p = 0; p < n; p += 3) {
-      const Vec3 g = BlockCloud::vector(cloud.gradients[p]), own = BlockCloud::vector(given[p].u);
-      Vec3 force = double(cloud.weights[p]) * g;
-      double rate = own.dot(g), terms = 1;
+    const size_t n = cloud.flows.size();
+    // Single precision and that of slopes; the numbers of gradients err by half a unit, too.
+    const double fine = 1e-6;
+    const auto half_unit = [&](size_t p) { return 0.5 * std::sqrt(3.0) * double(found.units[p]); };
+    Vec3 all = Vec3::Zero();
+    double sizes = 0;
+    for (size_t p = 0; p < n; ++p) {
+      const Vec3 of_others = cloud.points[p].w * found.pushes[p].vector();
+      all += of_others - found.own[p].vector();
+      sizes += of_others.norm();
+    }
+    CHECK(all.norm() < 1e-13 * sizes);
+    for (size_t p = 0; p < n; p += 41) {
+      double opened = 0, terms = 0, coarse_opened = 0, coarse_sum = 0, coarse_push = 0;
+      Vec3 sum = Vec3::Zero(), own = Vec3::Zero(), pushed = Vec3::Zero();
       cloud.each_in_reach(p, [&](size_t q, double f, const Vec3& d) {
-        force += f * double(cloud.weights[q]) * matrix(q) * d;
-        rate -= f * BlockCloud::vector(given[q].u).dot(matrix(p) * d);
-        terms += std::abs(f) * d.norm();
+        const Vec3 gradient = f * (matrix(p) * d);
+        opened += BlockCloud::vector(cloud.flows[q]).dot(gradient);
+        sum += cloud.points[q].w * gradient;
+        own += cloud.points[q].w * double(cloud.weights[p]) * gradient;
+        pushed -= f * double(cloud.weights[q]) * (matrix(q) * d);
+        terms += std::abs(f) * d.norm() * 3;
+        coarse_opened += half_unit(p) * BlockCloud::vector(cloud.flows[q]).norm();
+        coarse_sum += half_unit(p) * cloud.points[q].w;
+        coarse_push += half_unit(q) * double(cloud.weights[q]);
       });
-      const Vec3 flow = -double(cloud.gradients[p].w) * force,
-                 found(double(bits[n + 3 * p]), double(bits[n + 3 * p + 1]),
-                       double(bits[n + 3 * p + 2]));
-      CHECK(std::abs(double(bits[p]) - rate) < 5e-6 * terms);
-      CHECK((found - flow).norm() < 5e-6 * terms);
+      const SingleVector& g = cloud.gradients[p];
+      const Vec3 flow = double(g.w) * (pushed - double(cloud.weights[p]) * BlockCloud::vector(g));
+      CHECK(std::abs(double(found.opened[p]) - opened) < fine * terms + coarse_opened);
+      CHECK((BlockCloud::vector(found.sums[p]) - sum).norm() < fine * terms + coarse_sum);
+      CHECK((BlockCloud::vector(found.flows[p]) - flow).norm() < fine * terms + coarse_push);
+      CHECK((found.own[p].vector() - own).norm() < fine * terms);
+      CHECK((found.pushes[p].vector() - pushed).norm() < fine * terms);
     }
   }
 }

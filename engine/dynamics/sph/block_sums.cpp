@@ -1,14 +1,14 @@
-// Pressures and rates of the particles of a block, in single precision. The numbers of each
-// neighbour are made into a row first; a pair then loads the row as a whole and adds it to the sum
-// of its particle, times its slope. Rows are vectors of four: one where slopes are plain; where
-// they are corrected three, the columns of a matrix, and one more.
+// Sums over the pairs of a block: three numbers of a pair and as many of its neighbour's row are
+// one vector of four each, the last of which counts nothing.
 #include "engine/dynamics/sph/block_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 // This file once per instruction set, then what each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/dynamics/sph/block_sums.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // clang-format on
@@ -17,239 +17,307 @@ HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using QuadTag = hn::CappedTag<float, 4>;
-constexpr size_t quad_lanes = hn::MaxLanes(QuadTag()), quad_parts = 4 / quad_lanes;
+/// Four numbers of a type.
+template <class T>
+struct BlockFour {
+  using Tag = hn::CappedTag<T, 4>;
+  static constexpr size_t lanes = hn::MaxLanes(Tag()), count = 4 / lanes;
+  hn::Vec<Tag> parts[count];
 
-/// Four numbers in single precision.
-struct Quad {
-  hn::Vec<QuadTag> parts[quad_parts];
-  static HWY_INLINE Quad of(float v) {
-    Quad q;
-    for (auto& part : q.parts) part = hn::Set(QuadTag(), v);
+  static HWY_INLINE BlockFour of(T v) {
+    BlockFour q;
+    for (auto& part : q.parts) part = hn::Set(Tag(), v);
     return q;
   }
-  static HWY_INLINE Quad load(const SingleVector& v) {
-    Quad q;
-    for (size_t k = 0; k < quad_parts; ++k) q.parts[k] = hn::Load(QuadTag(), &v.x + k * quad_lanes);
+  static HWY_INLINE BlockFour load(const T* from) {
+    BlockFour q;
+    for (size_t k = 0; k < count; ++k) q.parts[k] = hn::LoadU(Tag(), from + k * lanes);
     return q;
   }
-  HWY_INLINE void store(SingleVector& to) const {
-    for (size_t k = 0; k < quad_parts; ++k) hn::Store(parts[k], QuadTag(), &to.x + k * quad_lanes);
-  }
-  HWY_INLINE SingleVector numbers() const {
-    SingleVector v;
-    store(v);
-    return v;
+  HWY_INLINE void store(T* to) const {
+    for (size_t k = 0; k < count; ++k) hn::StoreU(parts[k], Tag(), to + k * lanes);
   }
   /// Four times the number `k`.
   template <int k>
-  HWY_INLINE Quad all() const {
-    if constexpr (quad_parts == 1)
+  HWY_INLINE BlockFour all() const {
+    if constexpr (count == 1 && sizeof(T) == sizeof(float)) {
       return {{hn::Broadcast<k>(parts[0])}};
-    else
-      return of(hn::GetLane(parts[k]));
-  }
-  HWY_INLINE Quad with_fourth(float w) const {
-    Quad q = *this;
-    if constexpr (quad_parts == 1)
-      q.parts[0] = hn::InsertLane(parts[0], 3, w);
-    else
-      q.parts[3] = hn::Set(QuadTag(), w);
-    return q;
-  }
-  /// The first three numbers together.
-  HWY_INLINE float sum_of_three() const {
-    const SingleVector v = numbers();
-    return (v.x + v.y) + v.z;
+    } else {
+      HWY_ALIGN T v[4];
+      store(v);
+      return of(v[k]);
+    }
   }
 };
-static_assert(quad_parts == 1 || quad_lanes == 1);
+template <class T>
+HWY_INLINE BlockFour<T> operator+(const BlockFour<T>& a, const BlockFour<T>& b) {
+  BlockFour<T> q;
+  for (size_t k = 0; k < a.count; ++k) q.parts[k] = hn::Add(a.parts[k], b.parts[k]);
+  return q;
+}
+template <class T>
+HWY_INLINE BlockFour<T> operator-(const BlockFour<T>& a, const BlockFour<T>& b) {
+  BlockFour<T> q;
+  for (size_t k = 0; k < a.count; ++k) q.parts[k] = hn::Sub(a.parts[k], b.parts[k]);
+  return q;
+}
+template <class T>
+HWY_INLINE BlockFour<T> operator*(const BlockFour<T>& a, const BlockFour<T>& b) {
+  BlockFour<T> q;
+  for (size_t k = 0; k < a.count; ++k) q.parts[k] = hn::Mul(a.parts[k], b.parts[k]);
+  return q;
+}
+using Quad = BlockFour<float>;
+using Fours = BlockFour<double>;
 
-HWY_INLINE Quad operator+(const Quad& a, const Quad& b) {
-  Quad q;
-  for (size_t k = 0; k < quad_parts; ++k) q.parts[k] = hn::Add(a.parts[k], b.parts[k]);
-  return q;
+/// Four numbers in single precision of four in double.
+HWY_INLINE Quad demoted(const Fours& from) {
+  using Half = hn::Rebind<float, Fours::Tag>;
+  HWY_ALIGN float to[4];
+  for (size_t k = 0; k < Fours::count; ++k)
+    hn::StoreU(hn::DemoteTo(Half(), from.parts[k]), Half(), to + k * Fours::lanes);
+  return Quad::load(to);
 }
-HWY_INLINE Quad operator-(const Quad& a, const Quad& b) {
-  Quad q;
-  for (size_t k = 0; k < quad_parts; ++k) q.parts[k] = hn::Sub(a.parts[k], b.parts[k]);
-  return q;
+/// The sum of four sums of every fourth pair.
+template <class T>
+HWY_INLINE BlockFour<T> total(const BlockFour<T> (&sums)[4]) {
+  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
-HWY_INLINE Quad operator*(const Quad& a, const Quad& b) {
+
+/// Columns of the matrix by which ways are multiplied [1/m], times a factor.
+HWY_INLINE void find_columns(const BlockPoints& of, size_t place, double factor,
+                             double (&columns)[3][4]) {
+  const double unit = factor / of.length_unit;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r)
+      columns[c][r] = of.corrections ? unit * of.corrections[place](r, c) : (r == c ? unit : 0);
+    columns[c][3] = 0;
+  }
+}
+/// A matrix by its columns, times the first three numbers of x.
+template <class T>
+HWY_INLINE BlockFour<T> times(const BlockFour<T> (&columns)[3], const BlockFour<T>& x) {
+  return (columns[0] * x.template all<0>() + columns[1] * x.template all<1>()) +
+         columns[2] * x.template all<2>();
+}
+
+/// Rounded to whole numbers, which are written.
+HWY_INLINE Quad round_to(const Quad& from, int16_t* to) {
+  using Whole = hn::RebindToSigned<Quad::Tag>;
+  using Short = hn::Rebind<int16_t, Quad::Tag>;
   Quad q;
-  for (size_t k = 0; k < quad_parts; ++k) q.parts[k] = hn::Mul(a.parts[k], b.parts[k]);
+  for (size_t k = 0; k < from.count; ++k) {
+    const auto whole = hn::NearestInt(from.parts[k]);
+    hn::StoreU(hn::DemoteTo(Short(), whole), Short(), to + k * Quad::lanes);
+    q.parts[k] = hn::ConvertTo(Quad::Tag(), hn::Vec<Whole>(whole));
+  }
   return q;
 }
 
-/// Where particles are, from the centre of one block.
-class BlockPoints {
+/// No gradient's number is larger than this [1/length unit]: the longest row of the correction.
+HWY_INLINE double most_of_gradient(const BlockPoints& of, size_t place) {
+  if (!of.corrections) return of.steepest;
+  double longest = 0;
+  for (int r = 0; r < 3; ++r)
+    longest = std::max(longest, of.corrections[place].row(r).squaredNorm());
+  return of.steepest * std::sqrt(longest);
+}
+
+void make_here(const BlockPoints& of, const FluidBlock& block, const float* volumes,
+               BlockPair* pairs, float* units, SingleVector* sums) {
+  size_t k = 0;
+  for (size_t p = 0; p < block.ends.size(); ++p) {
+    const size_t place = block.first + p;
+    const Fours at = Fours::load(&of.points[place].x);
+    units[p] = float(most_of_gradient(of, place) / INT16_MAX);
+    HWY_ALIGN double numbers[3][4];
+    find_columns(of, place, 1 / double(units[p]), numbers);
+    const Quad columns[3] = {demoted(Fours::load(numbers[0])), demoted(Fours::load(numbers[1])),
+                             demoted(Fours::load(numbers[2]))};
+    const Quad diagonal = columns[0] + columns[1] + columns[2];
+    Quad sum = Quad::of(0);
+    const auto keep = [&](size_t other, const Quad& gradient) HWY_ATTR {
+      int16_t rounded[4];
+      sum = sum + Quad::of(volumes[other]) * round_to(gradient, rounded);
+      pairs[k] = {rounded[0], rounded[1], rounded[2], block.others[k]};
+    };
+    const auto way = [&](size_t other) HWY_ATTR {
+      return Quad::of(block.slopes[k]) * demoted(at - Fours::load(&of.points[other].x));
+    };
+    if (of.corrections)
+      for (; k < block.ends[p]; ++k) {
+        const size_t other = block.rows[block.others[k]];
+        keep(other, times(columns, way(other)));
+      }
+    else
+      for (; k < block.ends[p]; ++k) {
+        const size_t other = block.rows[block.others[k]];
+        keep(other, diagonal * way(other));
+      }
+    (Quad::of(units[p]) * sum).store(&sums[p].x);
+  }
+}
+
+/// f(particle, its first pair, and the last) for particles of a block.
+template <class F>
+HWY_INLINE void each_of_block(const FluidBlock& block, size_t first, size_t end, const F& f) {
+  size_t k = first == 0 ? 0 : block.ends[first - 1];
+  for (size_t p = first; p < end; ++p) {
+    f(p, k, size_t(block.ends[p]));
+    k = block.ends[p];
+  }
+}
+
+/// Four pairs at once: vectors of as many numbers as there are, 4 for each pair.
+template <class Tag>
+class FourPairs {
  public:
-  HWY_INLINE BlockPoints(const BlockOperands& of, const FluidBlock& block)
-      : centres_(of.centres),
-        centre_{block.centre[0], block.centre[1], block.centre[2], 0},
-        per_unit_{1 / of.length_unit, 1 / of.length_unit, 1 / of.length_unit, 0} {}
-  HWY_INLINE Quad operator()(const SingleVector& at) const {
-    return Quad::load(at) + way_from<hn::CappedTag<double, 4>>(&centres_[size_t(at.w)].x);
+  static constexpr size_t lanes = hn::MaxLanes(Tag()), count = 16 / lanes;
+  HWY_INLINE FourPairs() {
+    for (auto& sum : sums_) sum = hn::Zero(Tag());
+  }
+  HWY_INLINE void add(const BlockPair* pairs, const BlockRow* rows) {
+    const hn::Rebind<int16_t, Tag> shorts;
+    const hn::Rebind<int32_t, Tag> wholes;
+    for (size_t k = 0; k < count; ++k) {
+      const auto rounded = hn::PromoteTo(wholes, hn::LoadU(shorts, &pairs->x + k * lanes));
+      sums_[k] = hn::Add(
+          sums_[k], hn::Mul(flows(pairs + k * lanes / 4, rows, k), hn::ConvertTo(Tag(), rounded)));
+    }
+  }
+  /// In the order of total().
+  HWY_INLINE float sum_of_three() const {
+    HWY_ALIGN float v[4];
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (lanes == 16) {
+      const hn::Half<Tag> half;
+      const hn::Half<decltype(half)> quarter;
+      const auto two = hn::Add(hn::LowerHalf(half, sums_[0]), hn::UpperHalf(half, sums_[0]));
+      hn::Store(hn::Add(hn::LowerHalf(quarter, two), hn::UpperHalf(quarter, two)), quarter, v);
+    } else if constexpr (lanes == 8) {
+      const hn::Half<Tag> quarter;
+      const auto two = hn::Add(sums_[0], sums_[1]);
+      hn::Store(hn::Add(hn::LowerHalf(quarter, two), hn::UpperHalf(quarter, two)), quarter, v);
+    } else
+#endif
+    {
+      constexpr size_t n = count / 4;
+      for (size_t k = 0; k < n; ++k)
+        hn::Store(
+            hn::Add(hn::Add(sums_[k], sums_[2 * n + k]), hn::Add(sums_[n + k], sums_[3 * n + k])),
+            Tag(), v + k * lanes);
+    }
+    return (v[0] + v[1]) + v[2];
   }
 
  private:
-  /// From this block's centre to another one.
-  template <class Tag>
-  HWY_INLINE Quad way_from(const double* other) const {
-    using Half = hn::Rebind<float, Tag>;
-    constexpr size_t lanes = hn::MaxLanes(Tag());
-    const auto part = [&](size_t k) HWY_ATTR {
-      const auto d = hn::Sub(hn::Load(Tag(), other + k), hn::Load(Tag(), centre_ + k));
-      return hn::DemoteTo(Half(), hn::Mul(d, hn::Load(Tag(), per_unit_ + k)));
+  /// The flows of the others, of as many pairs as there is room for.
+  static HWY_INLINE hn::Vec<Tag> flows(const BlockPair* pairs, const BlockRow* rows, size_t part) {
+#if HWY_TARGET != HWY_SCALAR
+    const auto flow = [&](size_t k) HWY_ATTR {
+      return hn::Load(hn::CappedTag<float, 4>(), &rows[pairs[k].row].flow.x);
     };
-    if constexpr (lanes == quad_lanes) {
-      Quad way;
-      for (size_t k = 0; k < quad_parts; ++k) way.parts[k] = part(k * lanes);
-      return way;
-    } else {
-      // Vectors of 128 bits hold two numbers in double precision and four in single.
-      SingleVector way;
-      for (size_t k = 0; k < 4; k += lanes) hn::StoreU(part(k), Half(), &way.x + k);
-      return Quad::load(way);
-    }
+    if constexpr (lanes == 16) {
+      const hn::Half<Tag> half;
+      return hn::Combine(Tag(), hn::Combine(half, flow(3), flow(2)),
+                         hn::Combine(half, flow(1), flow(0)));
+    } else if constexpr (lanes == 8) {
+      return hn::Combine(Tag(), flow(1), flow(0));
+    } else
+#endif
+      return hn::Load(Tag(), &rows[pairs[0].row].flow.x + part * lanes % 4);
   }
-
-  const FluidVector* centres_;
-  HWY_ALIGN double centre_[4];
-  HWY_ALIGN double per_unit_[4];
+  hn::Vec<Tag> sums_[count];
 };
 
-/// f(row, place) for the rows of a block. What they are made of is all over memory: it is asked for
-/// some rows before.
-template <class Of, class F>
-HWY_INLINE void each_row(const FluidBlock& block, const Of* of, const F& f) {
-  constexpr size_t ahead = 16;
-  const size_t n = block.rows.size();
-  for (size_t r = 0; r < n; ++r) {
-    if (r + ahead < n) hwy::Prefetch(of + block.rows[r + ahead]);
-    f(r, size_t(block.rows[r]));
-  }
+void open_here(const FluidBlock& block, const BlockPair* pairs, const BlockRow* rows, size_t first,
+               size_t end, float* sums) {
+  each_of_block(block, first, end, [&](size_t p, size_t k, size_t last) HWY_ATTR {
+    FourPairs<hn::CappedTag<float, 16>> four;
+    for (; k < last; k += 4) four.add(pairs + k, rows);
+    sums[p - first] = four.sum_of_three();
+  });
 }
 
-/// f(particle, its sum of rows) for all particles of a block.
-template <size_t quads, class F>
-HWY_INLINE void each_block_sum(const FluidBlock& block, const SingleVector* rows, const F& f) {
-  using Tag = hn::CappedTag<float, 4 * quads>;
-  constexpr size_t lanes = hn::MaxLanes(Tag()), parts = 4 * quads / lanes;
-  size_t k = 0;
-  for (size_t p = 0; p < block.ends.size(); ++p) {
-    hn::Vec<Tag> sums[4][parts];
-    for (auto& sum : sums)
-      for (auto& part : sum) part = hn::Zero(Tag());
-    for (; k < block.ends[p]; k += 4)
+void press_here(const FluidBlock& block, const BlockPair* pairs, const float* weights, size_t first,
+                size_t end, BlockRow* rows) {
+  using Short = hn::Rebind<int16_t, Quad::Tag>;
+  using Whole = hn::Rebind<int32_t, Quad::Tag>;
+  each_of_block(block, first, end, [&](size_t p, size_t k, size_t last) HWY_ATTR {
+    const float w = weights[p - first];
+    if (w == 0) return;
+    HWY_ALIGN const float every[4] = {w, w, w, 0};
+    const Quad weight = Quad::load(every);
+    for (; k < last; k += 4)
       for (size_t n = 0; n < 4; ++n) {
-        const auto slope = hn::Set(Tag(), block.slopes[k + n]);
-        const float* row = &rows[quads * block.others[k + n]].x;
-        for (size_t j = 0; j < parts; ++j)
-          sums[n][j] = hn::Add(sums[n][j], hn::Mul(slope, hn::Load(Tag(), row + j * lanes)));
+        const BlockPair& pair = pairs[k + n];
+        Quad gradient;
+        for (size_t j = 0; j < Quad::count; ++j)
+          gradient.parts[j] = hn::ConvertTo(
+              Quad::Tag(), hn::PromoteTo(Whole(), hn::LoadU(Short(), &pair.x + j * Quad::lanes)));
+        float* push = &rows[pair.row].push.x;
+        (Quad::load(push) + weight * gradient).store(push);
       }
-    SingleVector sum[quads];
-    for (size_t j = 0; j < parts; ++j)
-      hn::StoreU(hn::Add(hn::Add(sums[0][j], sums[2][j]), hn::Add(sums[1][j], sums[3][j])), Tag(),
-                 &sum[0].x + j * lanes);
-    f(p, sum);
+  });
+}
+
+void exactly_here(const BlockPoints& of, const FluidBlock& block, const double* weights,
+                  FluidVector* rows, FluidVector* own) {
+  each_of_block(block, 0, block.ends.size(), [&](size_t p, size_t k, size_t last) HWY_ATTR {
+    Fours sums[4] = {Fours::of(0), Fours::of(0), Fours::of(0), Fours::of(0)};
+    const size_t place = block.first + p;
+    // The fourth number of a row is no push: the columns have none.
+    HWY_ALIGN double numbers[3][4];
+    find_columns(of, place, weights[place], numbers);
+    const Fours columns[3] = {Fours::load(numbers[0]), Fours::load(numbers[1]),
+                              Fours::load(numbers[2])},
+                at = Fours::load(&of.points[place].x);
+    for (; k < last && weights[place] != 0; k += 4)
+      for (size_t n = 0; n < 4; ++n) {
+        const size_t other = block.others[k + n];
+        FluidVector& row = rows[other];
+        const Fours push = times(columns, Fours::of(double(block.slopes[k + n])) *
+                                              (at - Fours::load(&of.points[block.rows[other]].x)));
+        sums[n] = sums[n] + Fours::of(row.w) * push;
+        (Fours::load(&row.x) + push).store(&row.x);
+      }
+    total(sums).store(&own[p].x);
+  });
+}
+
+void spread_here(const BlockCopies& copies, size_t first, size_t last, const SingleVector* flows,
+                 BlockRow* rows) {
+  const Quad zero = Quad::of(0);
+  for (size_t p = first; p < last; ++p) {
+    const Quad flow = Quad::load(&flows[p].x);
+    for (size_t k = copies.firsts[p]; k < copies.firsts[p + 1]; ++k) {
+      BlockRow& row = rows[copies.rows[k]];
+      flow.store(&row.flow.x);
+      zero.store(&row.push.x);
+    }
   }
 }
 
-/// A matrix by its columns, times the first three numbers of x.
-HWY_INLINE Quad times(const Quad (&columns)[3], const Quad& x) {
-  return (columns[0] * x.all<0>() + columns[1] * x.all<1>()) + columns[2] * x.all<2>();
-}
-
-HWY_INLINE void store_flow(const BlockOperands& of, size_t place, const Quad& force) {
-  const Quad per_mass = Quad::load(of.gradients[place]).all<3>();
-  (Quad::of(-1) * per_mass * force).store(of.flows[place].u);
-}
-
-void press_corrected(const BlockOperands& of, const FluidBlock& block, SingleVector* rows) {
-  const BlockPoints points(of, block);
-  each_row(block, of.matrices, [&](size_t r, size_t place) HWY_ATTR {
-    const BlockMatrix& m = of.matrices[place];
-    const Quad w = Quad::of(of.weights[place]);
-    const Quad columns[3] = {w * Quad::load(m.correction[0]), w * Quad::load(m.correction[1]),
-                             w * Quad::load(m.correction[2])};
-    SingleVector* row = rows + 4 * r;
-    for (size_t k = 0; k < 3; ++k) columns[k].store(row[k]);
-    times(columns, points(m.at)).store(row[3]);
-  });
-  each_block_sum<4>(block, rows, [&](size_t p, const SingleVector* sum) HWY_ATTR {
-    const size_t place = block.first + p;
-    const Quad x = points(of.flows[place].at),
-               own = Quad::of(of.weights[place]) * Quad::load(of.gradients[place]);
-    const Quad columns[3] = {Quad::load(sum[0]), Quad::load(sum[1]), Quad::load(sum[2])};
-    store_flow(of, place, own + (times(columns, x) - Quad::load(sum[3])));
-  });
-}
-
-void press_plain(const BlockOperands& of, const FluidBlock& block, SingleVector* rows) {
-  const BlockPoints points(of, block);
-  each_row(block, of.flows, [&](size_t r, size_t place) HWY_ATTR {
-    const Quad x = points(of.flows[place].at);
-    (Quad::of(of.weights[place]) * x.with_fourth(1)).store(rows[r]);
-  });
-  each_block_sum<1>(block, rows, [&](size_t p, const SingleVector* sum) HWY_ATTR {
-    const size_t place = block.first + p;
-    const Quad x = points(of.flows[place].at), s = Quad::load(sum[0]),
-               own = Quad::of(of.weights[place]) * Quad::load(of.gradients[place]);
-    store_flow(of, place, own + (s.all<3>() * x - s));
-  });
-}
-
-void open_corrected(const BlockOperands& of, const FluidBlock& block, float* rates,
-                    SingleVector* rows) {
-  const BlockPoints points(of, block);
-  each_row(block, of.flows, [&](size_t r, size_t place) HWY_ATTR {
-    const Quad x = points(of.flows[place].at), u = Quad::load(of.flows[place].u);
-    SingleVector* row = rows + 4 * r;
-    (u * x.all<0>()).store(row[0]);
-    (u * x.all<1>()).store(row[1]);
-    (u * x.all<2>()).store(row[2]);
-    u.store(row[3]);
-  });
-  each_block_sum<4>(block, rows, [&](size_t p, const SingleVector* sum) HWY_ATTR {
-    const size_t place = block.first + p;
-    const Quad x = points(of.flows[place].at), u = Quad::load(sum[3]);
-    const SingleVector* correction = of.matrices[place].correction;
-    Quad products = Quad::load(of.flows[place].u) * Quad::load(of.gradients[place]);
-    products = products + Quad::load(correction[0]) * (Quad::load(sum[0]) - u * x.all<0>());
-    products = products + Quad::load(correction[1]) * (Quad::load(sum[1]) - u * x.all<1>());
-    products = products + Quad::load(correction[2]) * (Quad::load(sum[2]) - u * x.all<2>());
-    rates[p] = products.sum_of_three();
-  });
-}
-
-void open_plain(const BlockOperands& of, const FluidBlock& block, float* rates,
-                SingleVector* rows) {
-  const BlockPoints points(of, block);
-  each_row(block, of.flows, [&](size_t r, size_t place) HWY_ATTR {
-    const Quad x = points(of.flows[place].at), u = Quad::load(of.flows[place].u);
-    u.with_fourth((u * x).sum_of_three()).store(rows[r]);
-  });
-  each_block_sum<1>(block, rows, [&](size_t p, const SingleVector* sum) HWY_ATTR {
-    const size_t place = block.first + p;
-    const Quad x = points(of.flows[place].at);
-    const Quad own = Quad::load(of.flows[place].u) * Quad::load(of.gradients[place]);
-    rates[p] = sum[0].w + (own - Quad::load(sum[0]) * x).sum_of_three();
-  });
-}
-
-void press_block_here(const BlockOperands& of, const FluidBlock& block, SingleVector* rows) {
-  if (of.matrices)
-    press_corrected(of, block, rows);
-  else
-    press_plain(of, block, rows);
-}
-void open_block_here(const BlockOperands& of, const FluidBlock& block, float* rates,
-                     SingleVector* rows) {
-  if (of.matrices)
-    open_corrected(of, block, rates, rows);
-  else
-    open_plain(of, block, rates, rows);
+void flow_here(const BlockCopies& copies, size_t first, size_t last, const SingleVector* gradients,
+               const float* weights, SingleVector* flows, BlockRow* rows) {
+  const Quad zero = Quad::of(0);
+  for (size_t p = first; p < last; ++p) {
+    const size_t begin = copies.firsts[p], end = copies.firsts[p + 1];
+    Quad pushes = zero;
+    for (size_t k = begin; k < end; ++k) {
+      pushes = pushes + Quad::load(&rows[copies.rows[k]].push.x);
+    }
+    const float per_mass = gradients[p].w;
+    const float each[4] = {per_mass, per_mass, per_mass, 0};
+    const Quad flow =
+        Quad::load(each) * (pushes - Quad::of(weights[p]) * Quad::load(&gradients[p].x));
+    flow.store(&flows[p].x);
+    for (size_t k = begin; k < end; ++k) {
+      BlockRow& row = rows[copies.rows[k]];
+      flow.store(&row.flow.x);
+      zero.store(&row.push.x);
+    }
+  }
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -257,26 +325,38 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tumble {
-HWY_EXPORT(press_block_here);
-HWY_EXPORT(open_block_here);
+HWY_EXPORT(make_here);
+HWY_EXPORT(open_here);
+HWY_EXPORT(press_here);
+HWY_EXPORT(exactly_here);
+HWY_EXPORT(spread_here);
+HWY_EXPORT(flow_here);
 
-namespace {
-SingleVector* rows_in(BlockScratch& scratch, const FluidBlock& block) {
-  constexpr size_t quads_of_row = 4, per_line = 4;
-  const size_t room = quads_of_row * block.rows.size() + per_line;
-  if (scratch.size() < room) scratch.resize(room);
-  // A row of four vectors is one line of the cache.
-  const auto address = reinterpret_cast<uintptr_t>(scratch.data());
-  return scratch.data() + (per_line - address / sizeof(SingleVector) % per_line) % per_line;
+void make_pairs(const BlockPoints& of, const FluidBlock& block, const float* volumes,
+                BlockPair* pairs, float* units, SingleVector* sums) {
+  HWY_DYNAMIC_DISPATCH(make_here)(of, block, volumes, pairs, units, sums);
 }
-}  // namespace
-
-void press_block(const BlockOperands& of, const FluidBlock& block, BlockScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(press_block_here)(of, block, rows_in(scratch, block));
+void open_pairs(const FluidBlock& block, const BlockPair* pairs, const BlockRow* rows, size_t first,
+                size_t end, float* sums) {
+  HWY_DYNAMIC_DISPATCH(open_here)(block, pairs, rows, first, end, sums);
 }
-void open_block(const BlockOperands& of, const FluidBlock& block, float* rates,
-                BlockScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(open_block_here)(of, block, rates, rows_in(scratch, block));
+void press_pairs(const FluidBlock& block, const BlockPair* pairs, const float* weights,
+                 size_t first, size_t end, BlockRow* rows) {
+  HWY_DYNAMIC_DISPATCH(press_here)(block, pairs, weights, first, end, rows);
+}
+void flow_by_pushes(const BlockCopies& copies, size_t first_place, size_t last_place,
+                    const SingleVector* gradients, const float* weights, SingleVector* flows,
+                    BlockRow* rows) {
+  HWY_DYNAMIC_DISPATCH(flow_here)
+  (copies, first_place, last_place, gradients, weights, flows, rows);
+}
+void spread_flows(const BlockCopies& copies, size_t first_place, size_t last_place,
+                  const SingleVector* flows, BlockRow* rows) {
+  HWY_DYNAMIC_DISPATCH(spread_here)(copies, first_place, last_place, flows, rows);
+}
+void press_exactly(const BlockPoints& of, const FluidBlock& block, const double* weights,
+                   FluidVector* rows, FluidVector* own) {
+  HWY_DYNAMIC_DISPATCH(exactly_here)(of, block, weights, rows, own);
 }
 }  // namespace tumble
 #endif

@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/dynamics/sph/fluid_blocks.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace tumble {
@@ -10,41 +11,76 @@ struct alignas(16) SingleVector {
   float x = 0, y = 0, z = 0, w = 0;
 };
 
-/// A particle as other blocks read it: one line of a cache for what is corrected, and half of one
-/// for what flows.
-struct alignas(64) BlockMatrix {
-  SingleVector at;             ///< as in BlockFlow
-  SingleVector correction[3];  ///< columns [-]
-};
-struct alignas(32) BlockFlow {
-  SingleVector at;  ///< from the centre of its block [length units]; w: number of the block
-  SingleVector u;   ///< acceleration [m/s2] times volume [volume units]
+/// A neighbour as the pairs of one block see it, by row. Lengths are in reaches of the kernel, and
+/// volumes in parts of its scale, so that no unit takes single precision out of its range.
+struct alignas(32) BlockRow {
+  SingleVector flow;  ///< velocity or acceleration, times volume [volume units]; w: 0
+  /// Sum over the block's pairs with it of pressure, volume of the other and gradient; w: 0.
+  SingleVector push;
 };
 
-/// What sums over blocks are of, by place. Lengths are in reaches of the kernel, and volumes in
-/// parts of its scale, so that no unit takes single precision out of its range.
-struct BlockOperands {
-  double length_unit = 1;                 ///< [m]
-  const FluidVector* centres = nullptr;   ///< by block [m]
-  const BlockMatrix* matrices = nullptr;  ///< null: slopes are plain
-  BlockFlow* flows = nullptr;
-  const float* weights = nullptr;  ///< pressure [Pa] times volume [volume units]
-  /// Sum of V f d, corrected, with those of walls [1/length unit], over the volume; w: volume over
-  /// density and length unit [m2/kg].
-  const SingleVector* gradients = nullptr;
+/// A pair as the particle sees it whose list it is in. Sums over pairs wait for memory, and the
+/// iterations for pressures need no more digits than these.
+struct alignas(8) BlockPair {
+  int16_t x, y, z;  ///< gradient [pair units of the particle]
+  uint16_t row;     ///< of the other
+};
+/// As many as are summed at once.
+struct alignas(32) BlockPairs {
+  BlockPair all[FluidPairStore::batch];
 };
 
-/// Memory for the numbers of a block's neighbours.
-using BlockScratch = std::vector<SingleVector>;
+/// In which rows of all blocks a particle is, by place: rows[k] for k from firsts[p] to
+/// firsts[p + 1].
+struct BlockCopies {
+  const uint32_t* firsts;
+  const uint32_t* rows;
+};
 
-// The two operators of pressure_solve in single precision, by the expansions of fluid_state about
-// the centre of a block. Sums are in an order that is the same for every instruction set.
+/// What gradients are made of: kernel slopes, times what corrects them, times the way from the
+/// other. By place; no corrections: null.
+struct BlockPoints {
+  const FluidVector* points;  ///< [m]
+  const Mat3* corrections;    ///< [-]
+  double length_unit;         ///< [m]
+  double steepest;            ///< no slope times distance is larger [length units]
+};
 
-/// Makes the flows of the particles of a block by the pressures of their neighbours.
-void press_block(const BlockOperands& of, const FluidBlock& block, BlockScratch& scratch);
-/// Rates at which flows change the rates of their shares, walls at rest, by particle of the block
-/// [m/s2 per length unit].
-void open_block(const BlockOperands& of, const FluidBlock& block, float* rates,
-                BlockScratch& scratch);
+// Sums over the pairs of blocks. All are sums of one list of gradients, which are the kernel's
+// slopes, times what corrects them, times the ways from the other particles: rates gather what the
+// others' velocities say, and by the transpose a particle's pressure pushes the others. What
+// particles are for each other lies in rows of their own for each block, so that blocks do not
+// write to each other's memory. The order of every sum is the same for all instruction sets and
+// numbers of threads.
+
+/// Makes the pairs of a block; `volumes` are by place. `units` are by particle: the pair unit
+/// [1/length unit]; `sums` too: the sum of the others' volumes times gradients, w: 0.
+void make_pairs(const BlockPoints& of, const FluidBlock& block, const float* volumes,
+                BlockPair* pairs, float* units, SingleVector* sums);
+
+/// Particles `first` to `end` of a block: the sum of flows times gradients [pair units],
+/// of each.
+void open_pairs(const FluidBlock& block, const BlockPair* pairs, const BlockRow* rows, size_t first,
+                size_t end, float* sums);
+/// The same particles, with these pressures times volumes times pair units, push their neighbours.
+void press_pairs(const FluidBlock& block, const BlockPair* pairs, const float* weights,
+                 size_t first, size_t end, BlockRow* rows);
+
+/// Flows of particles by their pressures: `weights` are pressures times volumes, `gradients` the
+/// sums of a particle's own gradients and those of walls, over its volume, and as w its volume over
+/// density and length unit [m2/kg]. Rows get the flows, and pushes of zero.
+void flow_by_pushes(const BlockCopies& copies, size_t first_place, size_t last_place,
+                    const SingleVector* gradients, const float* weights, SingleVector* flows,
+                    BlockRow* rows);
+/// Rows get flows that are given, and pushes of zero.
+void spread_flows(const BlockCopies& copies, size_t first_place, size_t last_place,
+                  const SingleVector* flows, BlockRow* rows);
+
+/// In double, for all particles of a block: they push their neighbours, and themselves by the
+/// opposite, so that the sum of volumes times pushes is zero but for rounding. `weights` are
+/// pressures times volumes by place; w of a row is the volume of the particle. `own` is by
+/// particle: the sum of the volumes of others times what it pushes them by.
+void press_exactly(const BlockPoints& of, const FluidBlock& block, const double* weights,
+                   FluidVector* rows, FluidVector* own);
 
 }  // namespace tumble

@@ -33,43 +33,25 @@ class RowNumbers {
   std::vector<uint32_t> number_;  ///< above `begin_`: by one more than the number
 };
 
-/// The number of particles from `first` on that make up a block, and the middle of their bounds.
-struct BlockExtent {
-  size_t end;
-  Vec3 centre;
-};
-BlockExtent extent_of_block(size_t first, size_t last, std::span<const FluidVector> points,
-                            double widest) {
-  Vec3 low = points[first].vector(), high = low;
-  size_t end = first + 1;
-  for (; end < std::min(last, first + tolerances::block_particles); ++end) {
-    const Vec3 x = points[end].vector(), lower = low.cwiseMin(x), higher = high.cwiseMax(x);
-    if ((higher - lower).maxCoeff() > widest) break;
-    low = lower, high = higher;
-  }
-  return {end, 0.5 * (low + high)};
-}
-
 }  // namespace
 
 bool FluidBlocks::make(const FluidPairStore& store, size_t first,
-                       std::span<const FluidPairStore::Range> ranges,
-                       std::span<const FluidVector> points, double reach) {
+                       std::span<const FluidPairStore::Range> ranges, size_t places) {
   thread_local RowNumbers numbers;
-  const auto filling = uint32_t(points.size() - 1);
+  const auto filling = uint32_t(places - 1);
   const size_t last = first + ranges.size();
   first_ = first;
   parts_.clear(), rows_.clear();
   ends_.resize(ranges.size());
-  others_.resize(store.used()), slopes_.resize(store.used());
-  size_t pairs = 0;
+  others_.resize(store.used());
+  slopes_ = store.list({0, 0}).slopes;
   for (size_t begin = first; begin < last;) {
-    const BlockExtent extent =
-        extent_of_block(begin, last, points, tolerances::block_width * reach);
-    Part part{begin, extent.end, extent.centre, rows_.size(), 0, pairs};
-    numbers.restart(points.size());
+    const size_t end = std::min(last, begin + tolerances::block_particles);
+    Part part{begin, end, rows_.size(), 0, ranges[begin - first].first};
+    numbers.restart(places);
     for (size_t p = begin; p < part.end; ++p) {
-      const FluidList list = store.list(ranges[p - first]);
+      const FluidPairStore::Range range = ranges[p - first];
+      const FluidList list = store.list(range);
       if (p > begin && rows_.size() - part.first_row + list.padded > most_rows) {
         part.end = p;
         break;
@@ -77,11 +59,9 @@ bool FluidBlocks::make(const FluidPairStore& store, size_t first,
       for (size_t k = 0; k < list.padded; ++k) {
         // What fills lists up has no slope: any row will do.
         const uint32_t other = list.others[k];
-        others_[pairs + k] = other == filling ? 0 : uint16_t(numbers.of(other, rows_));
+        others_[range.first + k] = other == filling ? 0 : uint16_t(numbers.of(other, rows_));
       }
-      std::copy_n(list.slopes, list.padded, slopes_.data() + pairs);
-      pairs += list.padded;
-      ends_[p - first] = uint32_t(pairs - part.first_pair);
+      ends_[p - first] = uint32_t(range.first + range.padded - part.first_pair);
     }
     part.end_row = rows_.size();
     if (part.end_row - part.first_row > most_rows) return false;
@@ -94,11 +74,12 @@ bool FluidBlocks::make(const FluidPairStore& store, size_t first,
 FluidBlock FluidBlocks::operator[](size_t k) const {
   const Part& p = parts_[k];
   return {p.first,
-          p.centre,
           {rows_.data() + p.first_row, p.end_row - p.first_row},
           {ends_.data() + (p.first - first_), p.end - p.first},
           others_.data() + p.first_pair,
-          slopes_.data() + p.first_pair};
+          slopes_ + p.first_pair,
+          p.first_row,
+          p.first_pair};
 }
 
 }  // namespace tumble

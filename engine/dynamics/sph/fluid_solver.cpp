@@ -134,17 +134,14 @@ class FluidTickRun {
   void take() {
     FluidState& s = s_;
     const size_t places = s.lists.places();
-    for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift, &s.terms, &s.other_terms})
-      a->resize(places);
-    if (s.corrects())
-      for (FluidTriples* a : {&s.wide_terms, &s.other_wide_terms}) a->resize(places);
-    s.volume.assign(places, 0);
-    s.density.assign(places, 1);
-    s.fluid.assign(places, 0);
-    s.pressure.assign(places, 0);
-    s.shift_pressure.assign(places, 0);
+    for (FluidVectors* a : {&s.at, &s.v, &s.acceleration, &s.shift, &s.terms}) a->resize(places);
     // The place that fills lists is far from all.
     const size_t last = places - 1;
+    for (std::vector<double>* a : {&s.volume, &s.density, &s.pressure, &s.shift_pressure})
+      a->resize(places);
+    s.volume[last] = s.pressure[last] = s.shift_pressure[last] = 0;
+    s.density[last] = 1;
+    s.fluid.assign(places, 0);
     s.origin = {s.lists.x()[0], s.lists.y()[0], s.lists.z()[0]};
     s.at.set(last, {s.lists.x()[last], s.lists.y()[last], s.lists.z()[last]});
     s.each([&](size_t p) {
@@ -230,7 +227,7 @@ Result<FluidReport> FluidSolver::step(std::span<const FluidDef* const> defs,
     s.bodies.push_back({b.centre, b.velocity, b.angular_velocity, Quat::Identity(), 0});
   s.pushes.assign(tick.bodies.size(), {});
   // Lists are made where the tick begins, so that the tick is a function of the particles alone.
-  s.lists = {};
+  s.lists.forget();
   if (particles.x.empty()) return s.report;
   s.spacing = det::pow(mean_volume(defs, particles), 1.0 / 3);
   s.kernel = SmoothingKernel(s.common.kernel, s.common.smoothing * s.spacing);

@@ -36,29 +36,6 @@ double FluidState::accelerate() {
   });
 }
 
-void find_rates(FluidState& s, std::vector<double>& rates) {
-  rates.resize(s.size());
-  s.each([&](size_t p) { s.terms.put(p, opening(s, p, s.v[p])); });
-  s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
-    double rate = s.v[p].dot(s.gradient[p]) + opened(s, p, sum);
-    for (const WallTouch& t : s.touches_of(p))
-      rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(t.gradient);
-    rates[p] = rate;
-  });
-}
-
-void find_divergences(FluidState& s, std::vector<double>& rates) {
-  rates.resize(s.size());
-  s.each([&](size_t p) { s.wide_terms.put(p, opening_corrected(s, p, s.v[p])); });
-  s.each_with_pairs(FluidFactor::slope, s.wide_terms, nullptr,
-                    [&](size_t p, const FluidTriple& sum) {
-                      double rate = opened(s, p, s.v[p], sum);
-                      for (const WallTouch& t : s.touches_of(p))
-                        rate += (s.v[p] - s.bodies[t.body].velocity_at(s.x(p))).dot(t.corrected);
-                      rates[p] = rate;
-                    });
-}
-
 void find_walls(FluidState& s) {
   std::vector<Pose> poses;
   std::vector<Aabb> bounds;
@@ -66,10 +43,11 @@ void find_walls(FluidState& s) {
     poses.push_back(s.wall_pose(w));
     bounds.push_back(w.shape->bounds(poses.back()).inflated(s.kernel.reach()));
   }
-  std::vector<std::vector<WallTouch>> found(chunk_count);
-  std::vector<uint32_t> counts(s.size());
+  std::vector<std::vector<WallTouch>>& found = s.found_touches;
+  std::vector<uint32_t>& counts = s.touch_counts;
+  found.resize(chunk_count), counts.resize(s.size());
+  for (auto& f : found) f.clear();
   for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
-    found[chunk].clear();
     // A few neighbours in memory are neighbours in space, and have few walls about them.
     constexpr size_t together = 32;
     std::vector<uint32_t> near;
@@ -206,32 +184,49 @@ void find_surroundings(FluidState& s) {
   });
 }
 
+namespace {
+
+/// Finds the rows in which each particle is, in ascending order.
+void number_copies(FluidState& s) {
+  PressureOperands& to = s.pressure_operands;
+  to.first_row.clear();
+  size_t rows = 0;
+  for (const FluidBlocks& blocks : s.blocks) {
+    to.first_row.push_back(uint32_t(rows));
+    rows += blocks.rows();
+  }
+  to.rows.resize(rows), to.exact_rows.resize(rows), to.copies.resize(rows);
+  to.first_copy.assign(s.size() + 1, 0);
+  const auto each_row = [&](const auto& f) {
+    for (size_t chunk = 0; chunk < s.blocks.size(); ++chunk)
+      for (size_t k = 0; k < s.blocks[chunk].size(); ++k) {
+        const FluidBlock block = s.blocks[chunk][k];
+        uint32_t row = to.first_row[chunk] + uint32_t(block.first_row);
+        for (const uint32_t place : block.rows) f(place, row++);
+      }
+  };
+  each_row([&](uint32_t place, uint32_t) { ++to.first_copy[place + 1]; });
+  for (size_t p = 0; p < s.size(); ++p) to.first_copy[p + 1] += to.first_copy[p];
+  to.next_copy.assign(to.first_copy.begin(), to.first_copy.end());
+  each_row([&](uint32_t place, uint32_t row) { to.copies[to.next_copy[place]++] = row; });
+}
+
+}  // namespace
+
 Status make_blocks(FluidState& s) {
   s.blocks.resize(chunk_count);
   for (FluidBlocks& blocks : s.blocks) blocks.clear();
-  s.block_scratch.resize(chunk_count);
   std::atomic<bool> fine = true;
   for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
     if (!s.blocks[chunk].make(s.stores[chunk], first, {s.ranges.data() + first, last - first},
-                              {s.at.data(), s.lists.places()}, s.kernel.reach()))
+                              s.lists.places()))
       fine.store(false, std::memory_order_relaxed);
   });
   if (!fine)
     return Error{ErrorCode::numeric,
                  fmt::format("a particle has more than {} neighbours", FluidBlocks::most_rows),
                  "fluid", "raise tick_hz, or look for what presses the fluid together"};
-  s.first_block.clear();
-  s.block_centres.clear();
-  for (const FluidBlocks& blocks : s.blocks) {
-    s.first_block.push_back(uint32_t(s.block_centres.size()));
-    for (size_t k = 0; k < blocks.size(); ++k) {
-      const Vec3 c = blocks[k].centre;
-      s.block_centres.push_back({c[0], c[1], c[2], 0});
-    }
-  }
-  PressureOperands& to = s.pressure_operands;
-  to.matrices.resize(s.size()), to.flows.resize(s.size());
-  to.weights.resize(s.size()), to.gradients.resize(s.size());
+  number_copies(s);
   return {};
 }
 

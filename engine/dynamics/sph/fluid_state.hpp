@@ -35,12 +35,39 @@ struct FluidBodyState {
 /// A force and torque about a body's centre, or impulses, or what they make of its velocities.
 using Wrench = FluidPush;
 
-/// By place: see BlockOperands.
+/// A pressure that is sought.
+struct alignas(32) SoughtPressure {
+  float now, before;             ///< [Pa]
+  float stepped;                 ///< before: the end of the step alone [Pa]
+  float residual;                ///< of the pressure before: see PressureSolve [1/s2]
+  float source;                  ///< [1/s2]
+  float diagonal, per_diagonal;  ///< [m3/(kg m2)], and one over it; 0: none
+  float volume;                  ///< [volume units]
+};
+
+/// What the pressure solve is made of: see block_sums. By place but for what is said.
 struct PressureOperands {
-  std::vector<BlockMatrix> matrices;
-  std::vector<BlockFlow> flows;
-  std::vector<float> weights;
-  std::vector<SingleVector> gradients;
+  std::vector<std::vector<BlockPairs>> pairs;  ///< by chunk
+  std::vector<BlockRow> rows;                  ///< of all blocks
+  std::vector<FluidVector> exact_rows;         ///< likewise
+  std::vector<uint32_t> first_row;             ///< by chunk
+  std::vector<uint32_t> first_copy, copies;    ///< see BlockCopies
+  std::vector<uint32_t> next_copy;             ///< scratch memory
+  std::vector<SingleVector> flows, gradients;  ///< see flow_by_pushes
+  std::vector<float> volumes;                  ///< [volume units]
+  std::vector<float> units;                    ///< of the particle's pairs: see make_pairs
+  std::vector<SoughtPressure> sought;
+  std::vector<float> weights;         ///< pressures times volumes [Pa volume units]
+  std::vector<FluidVector> own;       ///< see press_exactly
+  std::vector<double> exact_weights;  ///< [Pa m3]
+  std::vector<double> source;         ///< [1/s2]
+};
+
+/// Memory of solve_viscosity and smooth_velocities, by place but for what is said.
+struct ViscousOperands {
+  FluidVectors residual, direction, image, found;
+  std::vector<double> viscosity, scale, exchanged;
+  std::vector<double> walls;  ///< by touch
 };
 
 /// Fluid and bodies in a sub-step. Particles are by place: see NeighbourLists.
@@ -63,10 +90,9 @@ struct FluidState {
   // -- of the sub-step
   double h = 0;  ///< [s]
   NeighbourLists lists;
-  FluidVectors at;                            ///< places [m] and volumes [m3]
-  FluidVectors v, acceleration;               ///< [m/s]; of a solve [m/s2]
-  FluidVectors terms, other_terms;            ///< what sums over pairs are of
-  FluidTriples wide_terms, other_wide_terms;  ///< likewise
+  FluidVectors at;                       ///< places [m] and volumes [m3]
+  FluidVectors v, acceleration;          ///< [m/s]; of a solve [m/s2]
+  FluidVectors terms;                    ///< what sums over pairs are of
   FluidVectors shift;                    ///< velocity of particles in this sub-step alone [m/s]
   std::vector<uint8_t> fluid;            ///< of which of the fluids a particle is
   std::vector<double> density;           ///< at rest [kg/m3]
@@ -87,15 +113,15 @@ struct FluidState {
   Vec3 origin = Vec3::Zero();              ///< near the fluid, for what is linear in places [m]
   std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;
+  std::vector<std::vector<WallTouch>> found_touches;  ///< by chunk, before they are `touches`
+  std::vector<uint32_t> touch_counts;                 ///< likewise, by place
 
-  std::vector<FluidPairStore> stores;               ///< by chunk
-  std::vector<FluidPairStore::Range> ranges;        ///< by place
-  std::vector<uint32_t> store_of;                   ///< likewise
-  std::vector<FluidBlocks> blocks;                  ///< by chunk; of `dfsph`
-  std::vector<uint32_t> first_block;                ///< by chunk, of all blocks
-  std::vector<FluidVector> block_centres;           ///< of all [m]
-  mutable std::vector<BlockScratch> block_scratch;  ///< by chunk
+  std::vector<FluidPairStore> stores;         ///< by chunk
+  std::vector<FluidPairStore::Range> ranges;  ///< by place
+  std::vector<uint32_t> store_of;             ///< likewise
+  std::vector<FluidBlocks> blocks;            ///< by chunk; of `dfsph`
   PressureOperands pressure_operands;
+  ViscousOperands viscous_operands;
 
   size_t size() const { return lists.size(); }
   const FluidDef& def(size_t p) const { return *defs[fluid[p]]; }
@@ -131,49 +157,27 @@ struct FluidState {
       return s;
     });
   }
-  /// The same of f(p, sum over the others of what `factor` says times y): see sum_pairs.
-  template <class Terms, class F>
-  double sum_with_pairs(FluidFactor factor, const Terms& y, const double* q, const F& f) const {
-    return sum_chunks([&](size_t first, size_t last) {
+  /// f(p, sum over the others of what `factor` says times y) for all places: see sum_pairs.
+  template <class F>
+  void each_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
+                       const F& f) const {
+    for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
       constexpr size_t together = 64;
-      std::array<std::remove_cvref_t<decltype(*y.data())>, together> found;
-      double s = 0;
+      std::array<FluidVector, together> found;
       for (size_t p = first; p < last;) {
         size_t end = p + 1;
         while (end < std::min(last, p + together) && store_of[end] == store_of[p]) ++end;
         sum_pairs(stores[store_of[p]], factor, p, {ranges.data() + p, end - p}, y.data(), q,
                   found.data());
-        for (size_t k = 0; p < end; ++k, ++p) s += f(p, found[k]);
+        for (size_t k = 0; p < end; ++k, ++p) f(p, found[k]);
       }
-      return s;
     });
   }
-  /// f(p, sum) for all places.
-  template <class Terms, class F>
-  void each_with_pairs(FluidFactor factor, const Terms& y, const double* q, const F& f) const {
-    sum_with_pairs(factor, y, q, [&](size_t p, const auto& sum) {
-      f(p, sum);
-      return 0.0;
-    });
-  }
-  /// Sum of f(block, memory for it) over all blocks.
-  template <class F>
-  double sum_blocks(const F& f) const {
-    std::array<double, chunk_count> parts{};
-    for_chunks(crew, size(), [&](size_t chunk, size_t, size_t) {
-      for (size_t k = 0; k < blocks[chunk].size(); ++k)
-        parts[chunk] += f(blocks[chunk][k], block_scratch[chunk]);
-    });
-    double total = 0;
-    for (const double part : parts) total += part;
-    return total;
-  }
-  /// f(block, memory for it) for all blocks.
+  /// f(block, chunk) for all blocks.
   template <class F>
   void each_block(const F& f) const {
-    sum_blocks([&](const FluidBlock& block, BlockScratch& scratch) {
-      f(block, scratch);
-      return 0.0;
+    for_chunks(crew, size(), [&](size_t chunk, size_t, size_t) {
+      for (size_t k = 0; k < blocks[chunk].size(); ++k) f(blocks[chunk][k], chunk);
     });
   }
   /// Sum over all places of what f(p, by body) adds to bodies, likewise.
@@ -243,47 +247,6 @@ inline FluidVector pressing(const FluidState& s, size_t p, double pressure) {
 inline Vec3 pressed(const FluidState& s, size_t p, const FluidVector& sum) {
   return sum.w * s.local(p) - sum.vector();
 }
-/// The same for the second, of velocities or accelerations u.
-inline FluidVector opening(const FluidState& s, size_t p, const Vec3& u) {
-  const Vec3 v = s.volume[p] * u;
-  return {v[0], v[1], v[2], v.dot(s.local(p))};
-}
-inline double opened(const FluidState& s, size_t p, const FluidVector& sum) {
-  return sum.w - s.local(p).dot(sum.vector());
-}
-/// The two sums with corrections K, of which each particle has its own:
-///   sum of V f (p K + p' K') d = p K sum of V f d + (sum of V f p' K') x - sum of V f p' K' x'
-///   sum of V f (u - u') . K d
-///     = K : (u (sum of V f d)^T - (sum of V f u') x^T + sum of V f u' x'^T)
-/// and what they are made of, as above.
-inline FluidTriple pressing_corrected(const FluidState& s, size_t p, double pressure) {
-  const double w = s.volume[p] * pressure;
-  const Mat3& k = s.correction[p];
-  const Vec3 x = w * (k * s.local(p));
-  return {{{w * k(0, 0), w * k(0, 1), w * k(0, 2), x[0]},
-           {w * k(1, 1), w * k(1, 2), w * k(2, 2), x[1]},
-           {x[2], 0, 0, 0}}};
-}
-inline Vec3 pressed(const FluidState& s, size_t p, const FluidTriple& sum) {
-  const auto& [a, b, c] = sum.parts;
-  const Vec3 x = s.local(p);
-  return {a.x * x[0] + a.y * x[1] + a.z * x[2] - a.w, a.y * x[0] + b.x * x[1] + b.y * x[2] - b.w,
-          a.z * x[0] + b.y * x[1] + b.z * x[2] - c.x};
-}
-inline FluidTriple opening_corrected(const FluidState& s, size_t p, const Vec3& u) {
-  const Vec3 v = s.volume[p] * u, x = s.local(p);
-  const auto row = [&](int k) { return FluidVector{v[k] * x[0], v[k] * x[1], v[k] * x[2], v[k]}; };
-  return {{row(0), row(1), row(2)}};
-}
-inline double opened(const FluidState& s, size_t p, const Vec3& u, const FluidTriple& sum) {
-  const Vec3 x = s.local(p), &g = s.fluid_gradient[p];
-  double rate = 0;
-  for (int k = 0; k < 3; ++k) {
-    const FluidVector& of = sum.parts[k];
-    rate += s.correction[p].row(k).dot(u[k] * g - of.w * x + of.vector());
-  }
-  return rate;
-}
 /// For sums of V f (u - u') or V W (u - u').
 inline FluidVector differing(const FluidState& s, size_t p, const Vec3& u) {
   const Vec3 v = s.volume[p] * u;
@@ -301,11 +264,6 @@ void find_surroundings(FluidState& s);
 Status make_blocks(FluidState& s);
 /// From these the corrections, and with them gradients and diagonals.
 void find_corrections(FluidState& s);
-/// Rates at which shares change by the velocities that are [1/s]: fluid behind a wall moves as the
-/// mirror image.
-void find_rates(FluidState& s, std::vector<double>& rates);
-/// The same with corrections: minus the divergence of velocities.
-void find_divergences(FluidState& s, std::vector<double>& rates);
 /// Fills FluidState::touches.
 void find_walls(FluidState& s);
 /// Bodies move on for the sub-step.

@@ -254,74 +254,41 @@ FluidPairSums pairs_here(const SmoothingKernel& kernel, FluidMoments moments,
 
 // -- sums over them
 
-/// As many times four numbers.
-template <size_t fours>
-struct FluidFours {
-  FluidFour all[fours];
-  static HWY_INLINE FluidFours zero() {
-    FluidFours f;
-    for (FluidFour& a : f.all) a = FluidFour::zero();
-    return f;
-  }
-};
-template <size_t fours>
-HWY_INLINE FluidFours<fours> operator+(const FluidFours<fours>& a, const FluidFours<fours>& b) {
-  FluidFours<fours> sum;
-  for (size_t k = 0; k < fours; ++k) sum.all[k] = a.all[k] + b.all[k];
-  return sum;
-}
-
-/// Of one particle: factors times means times y, of every fourth pair in a sum of its own. `y` are
-/// that many vectors of each place.
-template <size_t fours, class Mean>
-HWY_INLINE FluidFours<fours> sum_of(const FluidList& list, const float* factors,
-                                    const FluidVector* y, const Mean& mean) {
-  using Sum = FluidFours<fours>;
-  Sum sums[4] = {Sum::zero(), Sum::zero(), Sum::zero(), Sum::zero()};
+/// Of one particle: factors times means times y, of every fourth pair in a sum of its own.
+template <class Mean>
+HWY_INLINE FluidFour sum_of(const FluidList& list, const float* factors, const FluidVector* y,
+                            const Mean& mean) {
+  FluidFour sums[4] = {FluidFour::zero(), FluidFour::zero(), FluidFour::zero(), FluidFour::zero()};
   for (size_t k = 0; k < list.padded; k += 4) {
     HWY_ALIGN double f[4];
     FluidFour::load(factors + k).store(f);
     for (size_t n = 0; n < 4; ++n) {
       const size_t other = list.others[k + n];
-      const double factor = mean(f[n], other);
-      for (size_t j = 0; j < fours; ++j)
-        sums[n].all[j] = sums[n].all[j] + factor * FluidFour::load(&y[fours * other + j].x);
+      sums[n] = sums[n] + mean(f[n], other) * FluidFour::load(&y[other].x);
     }
   }
   return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
-template <size_t fours>
-HWY_INLINE void all_sums(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-                         std::span<const FluidPairStore::Range> ranges, const FluidVector* y,
-                         const double* q, FluidVector* sums) {
+void sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
+               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
+               FluidVector* sums) {
   const bool slopes = factor == FluidFactor::slope;
   const double unit = slopes ? store.slope_unit() : store.weight_unit();
   for (size_t p = 0; p < ranges.size(); ++p) {
     const FluidList list = store.list(ranges[p]);
     const float* factors = slopes ? list.slopes : list.weights;
-    FluidFours<fours> sum;
+    FluidFour sum;
     if (q) {
       const double own = q[first_place + p];
-      sum = sum_of<fours>(list, factors, y, [own, q](double f, size_t other) HWY_ATTR {
+      sum = sum_of(list, factors, y, [own, q](double f, size_t other) HWY_ATTR {
         return f * of_mean(own, q[other]);
       });
     } else {
-      sum = sum_of<fours>(list, factors, y, [](double f, size_t) HWY_ATTR { return f; });
+      sum = sum_of(list, factors, y, [](double f, size_t) HWY_ATTR { return f; });
     }
-    for (size_t j = 0; j < fours; ++j) (unit * sum.all[j]).store(&sums[fours * p + j].x);
+    (unit * sum).store(&sums[p].x);
   }
-}
-
-void sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
-               FluidVector* sums) {
-  all_sums<1>(store, factor, first_place, ranges, y, q, sums);
-}
-void triple_sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-                      std::span<const FluidPairStore::Range> ranges, const FluidTriple* y,
-                      const double* q, FluidTriple* sums) {
-  all_sums<3>(store, factor, first_place, ranges, &y->parts[0], q, &sums->parts[0]);
 }
 
 }  // namespace tumble::HWY_NAMESPACE
@@ -331,7 +298,6 @@ HWY_AFTER_NAMESPACE();
 namespace tumble {
 HWY_EXPORT(pairs_here);
 HWY_EXPORT(sums_here);
-HWY_EXPORT(triple_sums_here);
 
 FluidPairSums find_pairs(const SmoothingKernel& kernel, FluidMoments moments,
                          std::span<const FluidVector> points, size_t place,
@@ -342,11 +308,6 @@ void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_pla
                std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
                FluidVector* sums) {
   HWY_DYNAMIC_DISPATCH(sums_here)(store, factor, first_place, ranges, y, q, sums);
-}
-void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidTriple* y, const double* q,
-               FluidTriple* sums) {
-  HWY_DYNAMIC_DISPATCH(triple_sums_here)(store, factor, first_place, ranges, y, q, sums);
 }
 }  // namespace tumble
 #endif

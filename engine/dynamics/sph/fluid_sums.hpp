@@ -36,23 +36,6 @@ class FluidVectors {
   std::vector<FluidVector> all_;
 };
 
-/// Twelve numbers of a particle that are summed at once, by place likewise.
-struct FluidTriple {
-  FluidVector parts[3];
-};
-class FluidTriples {
- public:
-  void resize(size_t n) {
-    all_.resize(n);
-    all_.back() = {};
-  }
-  void put(size_t p, const FluidTriple& t) { all_[p] = t; }
-  const FluidTriple* data() const { return all_.data(); }
-
- private:
-  std::vector<FluidTriple> all_;
-};
-
 /// What a particle has to do with the others in reach of it, pair by pair: the kernel W and its
 /// slope over the distance f, so that f times the way from the other particle to this one is the
 /// gradient of W. Both in parts of a unit of the store and rounded to single precision, alike for
@@ -142,9 +125,5 @@ enum class FluidFactor : uint8_t { slope, weight };
 void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
                std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
                FluidVector* sums);
-/// The same of twelve numbers.
-void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidTriple* y, const double* q,
-               FluidTriple* sums);
 
 }  // namespace tumble

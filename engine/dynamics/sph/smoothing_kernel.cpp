@@ -33,6 +33,12 @@ double SmoothingKernel::slope(double r) const {
   return scale_ / reach_ * (24 * w * w - 6 * u * u);
 }
 
+// The derivatives of 18 q^2 - 12 q, which is the spline's slope near by, and of q (1 - q)^3 are
+// zero there.
+double SmoothingKernel::steepest() const {
+  return -slope(reach_ / (kind_ == FluidKernelKind::wendland ? 4 : 3));
+}
+
 double SmoothingKernel::half_space(double distance) const {
   if (distance < 0) return 1 - half_space(-distance);
   const double q = distance / reach_, u = std::max(0.0, 1 - q);

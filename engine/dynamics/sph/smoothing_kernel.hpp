@@ -22,6 +22,8 @@ class SmoothingKernel {
 
   double value(double r) const;  ///< W [1/m3]
   double slope(double r) const;  ///< dW/dr [1/m4]
+  /// The largest size of the slope [1/m4].
+  double steepest() const;
 
   /// What a half-space holds of the kernel about a point at a signed distance [m] from it [-], and
   /// minus its derivative [1/m]: the integral of W over the plane at that distance.

@@ -27,12 +27,11 @@ inline constexpr int moment_sweeps = 4;
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;
 
-/// Particles that are summed over together [-]: so many that they have few neighbours for each of
-/// them, and so few that what these hold stays in a cache of 100 kB.
-inline constexpr size_t block_particles = 256;
-/// Such particles lie in a cube of this edge [reaches]: positions relative to its centre then lose
-/// at most three bits of single precision to differences of neighbours.
-inline constexpr double block_width = 6;
+/// Particles of a block [-]: so many that they have few neighbours for each of them, and so few
+/// that what these hold stays in a cache of 250 kB.
+inline constexpr size_t block_particles = 4096;
+/// Particles whose pairs are gone through twice in turn [-]: these take about 8 kB.
+inline constexpr size_t batch_particles = 32;
 
 /// Steps of the pressure solve, times the largest eigenvalue over the diagonal [-]: accelerated
 /// gradients are stable up to 4/3 where their momentum is nearly 1.

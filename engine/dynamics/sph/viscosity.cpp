@@ -15,7 +15,11 @@ namespace {
 /// the particle, whose velocity goes on linearly beyond the surface.
 class ViscousForces {
  public:
-  explicit ViscousForces(FluidState& s) : s_(s), viscosity_(s.lists.places(), 0) {
+  explicit ViscousForces(FluidState& s)
+      : s_(s), viscosity_(s.viscous_operands.viscosity), walls_(s.viscous_operands.walls) {
+    viscosity_.resize(s.lists.places());
+    viscosity_.back() = 0;
+    walls_.clear();
     s.each([&](size_t p) { viscosity_[p] = s.def(p).viscosity; });
     several_ = s.defs.size() > 1;
     if (!s.any(&FluidDef::wall_friction)) return;
@@ -50,9 +54,9 @@ class ViscousForces {
 
  private:
   FluidState& s_;
-  bool several_ = false;           ///< fluids
-  std::vector<double> viscosity_;  ///< [Pa s]
-  std::vector<double> walls_;      ///< by touch, force on the volume per speed [kg/(m3 s)]
+  bool several_ = false;            ///< fluids
+  std::vector<double>& viscosity_;  ///< [Pa s]
+  std::vector<double>& walls_;      ///< by touch, force on the volume per speed [kg/(m3 s)]
 };
 
 /// Conjugate gradients for (density - h L) v = density v*, with L the viscous forces, scaled by the
@@ -61,7 +65,13 @@ class ViscousForces {
 /// momentum is kept, however early iterations end.
 class ViscousSolve {
  public:
-  ViscousSolve(FluidState& s, const ViscousForces& forces) : s_(s), forces_(forces) {
+  ViscousSolve(FluidState& s, const ViscousForces& forces)
+      : s_(s),
+        forces_(forces),
+        residual_(s.viscous_operands.residual),
+        direction_(s.viscous_operands.direction),
+        image_(s.viscous_operands.image),
+        scale_(s.viscous_operands.scale) {
     for (FluidVectors* a : {&residual_, &direction_, &image_}) a->resize(s.lists.places());
     scale_.resize(s.size());
     s.each([&](size_t p) { scale_[p] = 1 / (s.density[p] + s.h * forces_.own(p)); });
@@ -117,8 +127,8 @@ class ViscousSolve {
   }
   FluidState& s_;
   const ViscousForces& forces_;
-  FluidVectors residual_, direction_, image_;
-  std::vector<double> scale_;
+  FluidVectors &residual_, &direction_, &image_;
+  std::vector<double>& scale_;
 };
 
 double kinetic_energy(const FluidState& s) {
@@ -130,12 +140,13 @@ double kinetic_energy(const FluidState& s) {
 void solve_viscosity(FluidState& s) {
   if (!s.any(&FluidDef::viscosity)) return;
   const ViscousForces forces(s);
-  const FluidVectors before = s.v;
+  FluidVectors& found = s.viscous_operands.found;
+  found = s.v;
   ViscousSolve solve(s, forces);
   solve.run();
-  const FluidVectors found = std::exchange(s.v, before);
+  std::swap(s.v, found);
   s.each([&](size_t p) {
-    const Vec3 gained = found[p] - before[p] + solve.residual(p) / s.density[p];
+    const Vec3 gained = found[p] - s.v[p] + solve.residual(p) / s.density[p];
     s.acceleration.set(p, gained / s.h);
   });
   s.report.viscous_work += s.accelerate();
@@ -153,8 +164,11 @@ void solve_viscosity(FluidState& s) {
 void smooth_velocities(FluidState& s) {
   if (!s.any(&FluidDef::xsph)) return;
   // What of a particle's mass takes the velocity of others [kg/m3].
-  std::vector<double> exchanged(s.lists.places(), 0);
-  s.each([&](size_t p) { exchanged[p] = s.def(p).xsph * s.density[p]; });
+  std::vector<double>& exchanged = s.viscous_operands.exchanged;
+  if (s.defs.size() > 1) {
+    exchanged.assign(s.lists.places(), 0);
+    s.each([&](size_t p) { exchanged[p] = s.def(p).xsph * s.density[p]; });
+  }
   const double before = kinetic_energy(s);
   s.each([&](size_t p) { s.terms.put(p, differing(s, p, s.v[p])); });
   s.each_with_pairs(FluidFactor::weight, s.terms, s.defs.size() > 1 ? exchanged.data() : nullptr,

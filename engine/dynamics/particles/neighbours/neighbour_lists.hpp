@@ -38,6 +38,8 @@ class NeighbourLists {
   /// to call. Makes order and lists anew if necessary; returns whether it was. Error if a
   /// coordinate is not finite, the reach not positive, or a periodic box shorter than the reach.
   Result<bool> update(std::span<const Vec3> x, const Request& request, Crew* crew);
+  /// The next update() makes order and lists anew, in the memory that there is.
+  void forget() { request_ = {}; }
   /// Whether the lists that were made for this request are valid for points at x.
   bool hold(std::span<const Vec3> x, const Request& request, Crew* crew) const;
 
