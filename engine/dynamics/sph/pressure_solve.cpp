@@ -9,6 +9,10 @@
 // an isotropic stress, however particles lie. Of plain slopes the shear of a lattice has rates, and
 // a fluid at rest a yield stress.
 //
+// Beside walls the corrected forces are S V D^T p: along the normal a wall bears a part of the
+// particle's layer (WallTouch::lever), as if the particle had so much less mass there. D S M^-1 D^T
+// is still symmetric, and energy in those masses does not grow.
+//
 // What of the density is wrong by then, since rates are not differences, moves particles and no
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
@@ -73,6 +77,7 @@ class PressureForces {
     s.each_block([&](const FluidBlock& block, BlockScratch& scratch) {
       press_block(operands_, block, scratch);
     });
+    if (corrected_) lever_flows();
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies();
     for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s.response(b, forces[b]);
@@ -129,6 +134,31 @@ class PressureForces {
           const Vec3 force = pressure_[p] * s.corrected_gradient[p] + pressed(s, p, sum);
           s.acceleration.set(p, -(1 / s.density[p]) * force);
         });
+    s.each([&](size_t p) {
+      if (touched(p)) s.acceleration.set(p, s.acceleration[p] + levered(p, s.acceleration[p]));
+    });
+  }
+  void lever_flows() {
+    FluidState& s = s_;
+    s.each([&](size_t p) {
+      if (!touched(p)) return;
+      SingleVector& u = s.pressure_operands.flows[p].u;
+      const double volume = s.kernel.scale() * s.volume[p];
+      const Vec3 more =
+          volume * levered(p, 1 / volume * Vec3(double(u.x), double(u.y), double(u.z)));
+      u = {u.x + float(more[0]), u.y + float(more[1]), u.z + float(more[2]), u.w};
+    });
+  }
+  bool touched(size_t p) const { return s_.first_touch[p] != s_.first_touch[p + 1]; }
+  /// What walls add to a particle's acceleration by pressures.
+  Vec3 levered(size_t p, const Vec3& acceleration) {
+    Vec3 sum = Vec3::Zero();
+    for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) {
+      WallTouch& t = s_.touches[k];
+      t.levered = t.lever * t.normal.dot(acceleration);
+      sum += t.levered * t.normal;
+    }
+    return sum;
   }
   const Vec3& gradient(const WallTouch& t) const { return corrected_ ? t.corrected : t.gradient; }
   double opened_by_bodies(size_t p) const {
@@ -141,9 +171,11 @@ class PressureForces {
   std::vector<Wrench> on_bodies() const {
     const FluidState& s = s_;
     return s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
-      if (pressure_[p] == 0) return;
-      for (const WallTouch& t : s.touches_of(p))
-        s.add_force(to, t.body, s.x(p), pressure_[p] * s.volume[p] * gradient(t));
+      for (const WallTouch& t : s.touches_of(p)) {
+        Vec3 force = pressure_[p] * gradient(t);
+        if (corrected_) force -= s.density[p] * t.levered * t.normal;
+        s.add_force(to, t.body, s.x(p), s.volume[p] * force);
+      }
     });
   }
 
