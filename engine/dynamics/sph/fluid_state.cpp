@@ -260,16 +260,19 @@ bool all_above(const Mat3& a, double least) {
   return x > 0 && minor > 0 && z * minor - xz * (xz * y - xy * yz) + yz * (xy * xz - x * yz) > 0;
 }
 
+/// How steeply a wall closes the share of a particle that comes nearer [1/m]: as a plane through
+/// the nearest point, since fluid goes through no wall, however little solid there is behind it.
+double barrier(const FluidState& s, const WallTouch& t) {
+  return mirrored_plane(s.kernel, s.spacing, t.distance);
+}
+
 /// Sum of -V f d d, which is 1 for a fluid without end, and what walls add: next to one a fluid
 /// whose velocity is linear does not go through it, and closes its share by that velocity over the
 /// distance.
 Mat3 moment_with_walls(const FluidState& s, size_t p) {
   Mat3 sum = s.moment[p];
-  for (const WallTouch& t : s.touches_of(p)) {
-    const double steep = t.gradient.norm();
-    if (steep > 0 && t.distance > 0)
-      sum += t.distance / steep * t.gradient * t.gradient.transpose();
-  }
+  for (const WallTouch& t : s.touches_of(p))
+    if (t.distance > 0) sum += t.distance * barrier(s, t) * t.normal * t.normal.transpose();
   return sum;
 }
 
@@ -286,16 +289,25 @@ void find_corrections(FluidState& s) {
     Vec3 gradient = correction * s.fluid_gradient[p];
     for (size_t k = s.first_touch[p]; k < s.first_touch[p + 1]; ++k) {
       WallTouch& t = s.touches[k];
-      const double square = t.gradient.squaredNorm();
-      t.corrected = square > 0 ? Vec3(t.gradient.dot(correction * t.gradient) / square * t.gradient)
-                               : Vec3(Vec3::Zero());
+      const double steep = barrier(s, t) * t.normal.dot(correction * t.normal);
+      t.corrected = -steep * t.normal;
+      // Where pressure is linear, it is greater or less at the wall than at the particle by what
+      // its gradient makes of the distance. That gradient is the acceleration by pressures, of
+      // which the wall so gives a part.
+      const double part = std::clamp(t.distance * steep, 0.0, tolerances::most_levered);
+      t.lever = part / (1 - part);
       gradient += t.corrected;
     }
     s.correction[p] = correction;
     s.corrected_gradient[p] = gradient;
     const double squares = correction.cwiseProduct(correction * s.square_matrix[p]).sum();
-    s.corrected_diagonal[p] = gradient.squaredNorm() / s.density[p] + s.volume[p] * squares +
-                              body_diagonal(s, p, &WallTouch::corrected);
+    double own = gradient.squaredNorm();
+    for (const WallTouch& t : s.touches_of(p)) {
+      const double along = t.normal.dot(gradient);
+      own += t.lever * along * along;
+    }
+    s.corrected_diagonal[p] =
+        own / s.density[p] + s.volume[p] * squares + body_diagonal(s, p, &WallTouch::corrected);
   });
 }
 

@@ -22,6 +22,10 @@ struct WallTouch {
   Vec3 normal;      ///< out of the wall
   /// The gradient as find_corrections makes it [1/m].
   Vec3 corrected = Vec3::Zero();
+  /// The wall bears a part of the layer beside it: so many times what pressures do to the particle
+  /// along the normal, the wall does to it besides [-]. See find_corrections.
+  double lever = 0;
+  double levered = 0;  ///< acceleration by that, along the normal [m/s2]
 };
 
 /// A body while the fluid of a tick is computed.

@@ -9,6 +9,10 @@
 // an isotropic stress, however particles lie. Of plain slopes the shear of a lattice has rates, and
 // a fluid at rest a yield stress.
 //
+// Beside walls the corrected forces are S V D^T p: along the normal a wall bears a part of the
+// particle's layer (WallTouch::lever), as if the particle had so much less mass there. D S M^-1 D^T
+// is still symmetric, and energy in those masses does not grow.
+//
 // What of the density is wrong by then, since rates are not differences, moves particles and no
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
@@ -102,6 +106,7 @@ class PressureForces {
       flow_by_pushes(copies, first, last, to_.gradients.data(), to_.weights.data(),
                      to_.flows.data(), to_.rows.data());
     });
+    if (corrected_) lever_flows();
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies(pressure);
     for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s_.response(b, forces[b]);
@@ -142,7 +147,8 @@ class PressureForces {
       for (size_t k = to_.first_copy[p]; k < to_.first_copy[p + 1]; ++k)
         force -= unit * to_.exact_rows[to_.copies[k]].vector();
       for (const WallTouch& t : s.touches_of(p)) force += pressure[p] * gradient(t);
-      s.acceleration.set(p, -(1 / s.density[p]) * force);
+      const Vec3 plain = -(1 / s.density[p]) * force;
+      s.acceleration.set(p, corrected_ && touched(p) ? Vec3(plain + levered(p, plain)) : plain);
     });
   }
   /// The same of plain sums, without blocks.
@@ -207,6 +213,27 @@ class PressureForces {
       f(first, {rates.data(), end - k});
     }
   }
+  /// Flows beside walls, with what these add.
+  void lever_flows() {
+    FluidState& s = s_;
+    s.each([&](size_t p) {
+      if (!touched(p)) return;
+      SingleVector& u = to_.flows[p];
+      const Vec3 more = double(to_.volumes[p]) * levered(p, acceleration(p));
+      u = {u.x + float(more[0]), u.y + float(more[1]), u.z + float(more[2]), u.w};
+    });
+  }
+  bool touched(size_t p) const { return s_.first_touch[p] != s_.first_touch[p + 1]; }
+  /// What walls add to a particle's acceleration by pressures.
+  Vec3 levered(size_t p, const Vec3& acceleration) {
+    Vec3 sum = Vec3::Zero();
+    for (size_t k = s_.first_touch[p]; k < s_.first_touch[p + 1]; ++k) {
+      WallTouch& t = s_.touches[k];
+      t.levered = t.lever * t.normal.dot(acceleration);
+      sum += t.levered * t.normal;
+    }
+    return sum;
+  }
   const Vec3& gradient(const WallTouch& t) const { return corrected_ ? t.corrected : t.gradient; }
   double opened_by_bodies(size_t p) const {
     double rate = 0;
@@ -220,9 +247,11 @@ class PressureForces {
     const FluidState& s = s_;
     return s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
       const double own = pressure(p);
-      if (own == 0) return;
-      for (const WallTouch& t : s.touches_of(p))
-        s.add_force(to, t.body, s.x(p), own * s.volume[p] * gradient(t));
+      for (const WallTouch& t : s.touches_of(p)) {
+        Vec3 force = own * gradient(t);
+        if (corrected_) force -= s.density[p] * t.levered * t.normal;
+        s.add_force(to, t.body, s.x(p), s.volume[p] * force);
+      }
     });
   }
 

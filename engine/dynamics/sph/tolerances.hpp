@@ -23,6 +23,10 @@ inline constexpr double least_moment = 0.3;
 /// Sweeps of Jacobi's rotations of a moment [-]: they converge quadratically, from within a half.
 inline constexpr int moment_sweeps = 4;
 
+/// Of the acceleration of a particle by pressures, the part that a wall may give it by the distance
+/// between the two [-]: that of the first layer of a lattice, which is borne by its wall alone.
+inline constexpr double most_levered = 0.5;
+
 /// How much farther lists of neighbours look than kernels reach [reaches], so that they last for
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;
