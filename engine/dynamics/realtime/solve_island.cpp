@@ -10,10 +10,22 @@
 namespace tumble {
 namespace {
 
+/// Sweeps over the points that bounce until each has its speed. One sweep would leave those of one
+/// face at different speeds, and a box that falls flat would turn. Returns whether anything
+/// bounced.
+bool bounce_contacts(const SolverContext& c, const SolverIsland& island) {
+  double change = apply_restitution(c, island);
+  const bool bounced = change > 0;
+  for (int turn = 1; change >= tolerances::bounce_error && turn < tolerances::most_bounce_turns;
+       ++turn)
+    change = apply_restitution(c, island);
+  return bounced;
+}
+
 /// Alternates restitution and sweeps over joints, so that the impact spreads through the mechanism,
 /// and limits its energy to `taken`. Returns whether anything bounced.
 bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
-  if (island.joints.empty()) return apply_restitution(c, island) > 0;
+  if (island.joints.empty()) return bounce_contacts(c, island);
   note_speeds(island, 1);
   note_joint_speeds(island);
   remember_velocities(island);

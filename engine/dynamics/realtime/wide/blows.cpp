@@ -99,8 +99,8 @@ void WideIsland::end_substep(Crew& crew, double hs) {
   for (Part& part : parts_) part.remembered = part.blown = false;
 }
 
-/// Alternates restitution and sweeps over joints, as in precise islands, in each island until its
-/// impact has spread through the mechanism.
+/// Alternates restitution and sweeps over joints, as in precise islands, in each island until all
+/// points that bounce have their speed and the impact has spread through the mechanism.
 void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
   for (Part& part : parts_) part.struck = true;
   if (books_.open) remember_before_blow();

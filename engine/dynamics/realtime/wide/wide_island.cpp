@@ -238,9 +238,7 @@ void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
     rows_.rebounds.assign(rows_.points.size(), {});
     rows_.blow_changes.assign(rows_.contacts.size(), {});
   }
-  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, hs);
-  with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
-  bounce_bundles(crew);
+  bounce_in_turn(c, crew, hs);
 }
 
 void WideIsland::bounce_bundles(Crew& crew) {
