@@ -225,7 +225,7 @@ void draw_shape_choice(PanelContext& context, const BodyDef& def) {
       const std::string name(entry.name);
       if (ImGui::Selectable(label_of(name).c_str()))
         context.ask(EditBody{
-            context.model.selected, undo step(context, def, "shapes"),
+            context.model.selected, undo_step(context, def, "shapes"),
             [type = entry.type](BodyDef& d) { d.shapes.push_back(fresh_shape(d, type)); }});
       context.host.mark("inspector.add_shape." + name);
     }
@@ -254,7 +254,7 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
   const std::string prefix = fmt::format("inspector.shape.{}", index);
   MaterialWidgets widgets(context, prefix);
   const auto ask = [&](std::function<void(BodyDef&)> change) {
-    context.ask(EditBody{context.model.selected, undo step(context, def, widgets.edited),
+    context.ask(EditBody{context.model.selected, undo_step(context, def, widgets.edited),
                          std::move(change)});
   };
   if (!is_copy(def) && draw_removal(context, def, index)) return;

@@ -384,7 +384,7 @@ TEST_CASE(
   CHECK(world.body(world.find_body("ball"))->mass == doctest::Approx(3));
   REQUIRE(world.find_body("box"));
   CHECK_FALSE(world.find_joint("spherical_1").is_null());
-  // Deeds of the earlier session are the file's now: nothing to save.
+  // Undo steps of the earlier session are the file's now: nothing to save.
   rig.play("key Ctrl+S\nwait 3\nclick save.write\nwait 2");
   CHECK(content() == saved);
   rig.app->ask(ChangeParameter{"h", 4});

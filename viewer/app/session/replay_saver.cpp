@@ -70,11 +70,11 @@ Result<ReplaySaver::Saved> ReplaySaver::write(const Request& request, const Begi
     if (Status done = write_file(saved.file, said.replay); !done) return done.error();
     return saved;
   }
-  const auto request = as_file(beginning);
-  if (!request) return request.error();
+  const auto scene = as_file(beginning);
+  if (!scene) return scene.error();
   const NamedReplay replay{
       std::string(reinterpret_cast<const char*>(said.replay.data()), said.replay.size()), {}};
-  const auto files = packed_scene(*request, &replay);
+  const auto files = packed_scene(*scene, &replay);
   if (!files) return files.error();
   if (Status done = write_pack(saved.file, *files); !done) return done.error();
   return saved;

@@ -460,11 +460,11 @@ void Application::begin_comparison(const WorldChoice& wanted) {
     return second_.begin(session(), wanted, scene_.trail);
   if (recording_forbids("comparing from the start")) return;
   undo_steps_.finish(session(), options_.own_thread);
-  OpenRequest wanted = scene_.request;
-  if (undo_steps_.unsaved().any()) wanted.text = undo_steps_.unsaved().text();
-  for (std::string& one : overrides_of(different)) wanted.overrides.push_back(std::move(one));
-  if (options_.own_thread) return second_.open(options_.open, std::move(wanted), wanted);
-  show_second({wanted, options_.open(wanted)});
+  OpenRequest request = scene_.request;
+  if (undo_steps_.unsaved().any()) request.text = undo_steps_.unsaved().text();
+  for (std::string& one : overrides_of(different)) request.overrides.push_back(std::move(one));
+  if (options_.own_thread) return second_.open(options_.open, std::move(request), wanted);
+  show_second({wanted, options_.open(request)});
 }
 
 /// Both worlds begin at the start of the scene.
