@@ -1,5 +1,7 @@
 #include "viewer/capture/atomic_file.hpp"
 
+#include "engine/core/part_file.hpp"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -13,8 +15,6 @@
 namespace tumble {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::string_view temporary_prefix = ".tumble-part-";
 
 std::string cure_of(int error) {
   switch (error) {
@@ -39,6 +39,14 @@ Error io_error(const fs::path& path, std::string_view doing, int error) {
           doing == "open" || doing == "read" ? std::string() : cure_of(error)};
 }
 
+/// Whether standard output goes to this file, as /dev/stdout or under its own name.
+bool is_stdout(const fs::path& path) {
+  struct stat named {
+  }, ours{};
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(STDOUT_FILENO, &ours) == 0 &&
+         named.st_dev == ours.st_dev && named.st_ino == ours.st_ino;
+}
+
 /// Writes all bytes; returns 0 or errno.
 int write_all(int fd, std::span<const std::byte> content) {
   while (!content.empty()) {
@@ -54,19 +62,20 @@ int write_all(int fd, std::span<const std::byte> content) {
 
 FileWriter::FileWriter(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) return;
-  // Devices and pipes (/dev/null, /dev/stdout) must be written in place: a rename would replace
-  // them.
+  // Devices and pipes must be written in place: a rename would replace them. So must the file that
+  // standard output goes to: what is printed there later would be lost with the replaced one.
   std::error_code code;
   const auto type = fs::status(path_, code);
-  in_place_ = fs::exists(type) && !fs::is_regular_file(type);
-  part_ = in_place_ ? path_
-                    : path_.parent_path() / fmt::format("{}{}-{}", temporary_prefix, ::getpid(),
-                                                        path_.filename().string());
+  const bool printed = is_stdout(path_);
+  in_place_ = printed || (fs::exists(type) && !fs::is_regular_file(type));
+  target_ = in_place_ ? path_ : behind_links(path_);
+  part_ = in_place_ ? path_ : part_of(target_);
   if (fs::is_directory(type)) {
     fail("write", EISDIR);
     return;
   }
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  fd_ = printed ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                : ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd_ < 0) fail("create", errno);
 }
 
@@ -96,7 +105,7 @@ Status FileWriter::commit() {
   flush();
   if (::close(fd_) != 0) fail("write", errno);
   fd_ = -1;
-  if (status_ && !in_place_ && ::rename(part_.c_str(), path_.c_str()) != 0) fail("write", errno);
+  if (status_ && !in_place_ && ::rename(part_.c_str(), target_.c_str()) != 0) fail("write", errno);
   if (!status_ && !in_place_) ::unlink(part_.c_str());
   return status_;
 }
@@ -146,8 +155,7 @@ void remove_temporary_files(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     std::error_code ignored;
-    if (it->path().filename().string().starts_with(temporary_prefix))
-      fs::remove(it->path(), ignored);
+    if (it->path().filename().string().starts_with(part_prefix)) fs::remove(it->path(), ignored);
   }
 }
 

@@ -10,8 +10,9 @@
 namespace tumble {
 
 /// Writes a file that appears whole or not at all: it is written under a temporary name beside the
-/// final one, then renamed. An earlier file of that name stays until then. Errors (ErrorCode::io)
-/// name the path and the cause; no temporary file is left.
+/// final one, then renamed. An earlier file of that name stays until then; a link stays too, and
+/// what it leads to is written. Errors (ErrorCode::io) name the path and the cause; no temporary
+/// file is left.
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 Status write_file(const std::filesystem::path& path, std::string_view content);
 
@@ -36,11 +37,13 @@ class FileWriter {
   void flush();
   void fail(std::string_view doing, int error);
 
-  std::filesystem::path path_, part_;
+  std::filesystem::path path_;    ///< as named by the caller, for messages
+  std::filesystem::path target_;  ///< behind links
+  std::filesystem::path part_;
   std::string buffer_;
   Status status_;
   int fd_ = -1;
-  bool in_place_ = false;  ///< devices and pipes are written without renaming
+  bool in_place_ = false;  ///< devices, pipes and standard output are written without renaming
 };
 
 /// The content of a file; fails for folders and for files above `max_bytes`.

@@ -1,6 +1,7 @@
 #include "viewer/capture/frame_clock.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -12,12 +13,35 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// Parses digits with at most one point; false for anything else, or if the number is too large.
+/// Parses the exponent after an 'e' and multiplies by that power of ten; false if it is none, or
+/// the number is too large.
+bool read_exponent(std::string_view text, int64_t& num, int64_t& den) {
+  if (text.starts_with('+') && !text.substr(1).starts_with('-')) text.remove_prefix(1);
+  int power = 0;
+  const char* end = text.data() + text.size();
+  if (const auto [rest, fault] = std::from_chars(text.data(), end, power);
+      fault != std::errc() || rest != end)
+    return false;
+  if (num == 0) return true;
+  for (; power != 0; power += power < 0 ? 1 : -1) {
+    int64_t& term = power < 0 ? den : num;
+    if (term > greatest_term) return false;
+    term *= 10;
+  }
+  return true;
+}
+
+/// Parses digits with at most one point, and an exponent; false for anything else, or if the number
+/// is too large.
 bool read_decimal(std::string_view text, int64_t& num, int64_t& den) {
   num = 0;
   den = 1;
   bool point = false, digits = false;
-  for (const char c : text) {
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if ((c == 'e' || c == 'E') && digits)
+      return read_exponent(text.substr(i + 1), num, den) && num <= greatest_term &&
+             den <= 10 * greatest_term;
     if (c == '.' && !point) {
       point = true;
       continue;
@@ -53,7 +77,7 @@ Result<Fraction> parse_fraction(std::string_view text, std::string_view name, bo
                  fmt::format("{}: '{}' is not a {} number of up to 12 digits", name, text,
                              allow_zero ? "non-negative" : "positive"),
                  {},
-                 "give it like 30, 2.5 or 30000/1001"};
+                 "give it like 30, 2.5, 1e-3 or 30000/1001"};
   const auto n = int64_t(num), d = int64_t(den);
   const int64_t g = std::gcd(n, d);
   return Fraction{n / g, d / g};

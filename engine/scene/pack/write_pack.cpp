@@ -1,6 +1,8 @@
+#include "engine/core/part_file.hpp"
 #include "engine/scene/pack/pack.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <memory>
 
 #include <minizip/zip.h>
@@ -37,22 +39,29 @@ bool add(void* archive, const PackFile& file) {
 }  // namespace
 
 Status write_pack(const fs::path& file, const std::vector<PackFile>& files) {
-  const auto failed = [&]() -> Status {
-    return Error{ErrorCode::io, "the pack cannot be written", file.string(),
-                 "see whether the folder exists and has room"};
+  std::error_code none;
+  const auto type = fs::status(file, none);
+  if (fs::exists(type) && !fs::is_regular_file(type))
+    return Error{ErrorCode::io, "this is a folder, a device or a pipe, and a pack is a file",
+                 file.string(), "name a file"};
+  const auto failed = [&](std::error_code cause) -> Status {
+    return Error{ErrorCode::io,
+                 "the pack cannot be written" + (cause ? ": " + cause.message() : std::string()),
+                 file.string(), "see whether its folder exists, has room and may be written to"};
   };
-  fs::path part = file;
-  part += ".part";
-  std::error_code error;
+  const fs::path target = behind_links(file), part = part_of(target);
+  errno = 0;
+  const auto cause = [] { return std::error_code(errno, std::generic_category()); };
   std::unique_ptr<void, CloseZip> archive(zipOpen64(part.c_str(), APPEND_STATUS_CREATE));
-  if (!archive) return failed();
+  if (!archive) return failed(cause());
   bool good = true;
   for (const PackFile& f : files) good = good && add(archive.get(), f);
   good = zipClose(archive.release(), nullptr) == ZIP_OK && good;
-  if (good) fs::rename(part, file, error);
+  std::error_code error = good ? std::error_code() : cause();
+  if (good) fs::rename(part, target, error);
   if (good && !error) return {};
-  fs::remove(part, error);
-  return failed();
+  fs::remove(part, none);
+  return failed(error);
 }
 
 }  // namespace tumble
