@@ -1,5 +1,6 @@
 // Blocks of memory for pictures, on large pages.
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 
 #include <sys/mman.h>
@@ -18,6 +19,7 @@ constexpr size_t huge_page = size_t{1} << 21;
 extern "C" int posix_memalign(void** block, size_t alignment, size_t size) noexcept {
   const bool power = alignment != 0 && (alignment & (alignment - 1)) == 0;
   if (!power || alignment % sizeof(void*) != 0) return EINVAL;
+  if (size > SIZE_MAX - huge_page) return ENOMEM;  // rounded up it would wrap around
   const bool large = size >= huge_page;
   // The last large page is used whole: a rest in small ones would cost more than its memory.
   const size_t whole = large ? (size + huge_page - 1) / huge_page * huge_page : size;

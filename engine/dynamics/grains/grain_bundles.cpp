@@ -207,9 +207,15 @@ void GrainBundles::fill_lane(const GrainTick& tick, const GrainField& grains,
   if (relative.squaredNorm() < threshold * threshold) return;
   const double approach = (distance > 0 ? Vec3(way / distance) : Vec3::UnitY()).dot(relative);
   if (approach > -threshold) return;
+  // Where two that are apart meet, they approach by less than now, unless they meet centrally: on a
+  // straight path the speed across it grows as their distance falls.
+  const double nearing = std::max(1.0, distance / reach);
+  const double square = relative.squaredNorm(),
+               normal = square - nearing * nearing * (square - approach * approach);
+  if (normal < threshold * threshold) return;
   if (!to.bounces) bounces_[k] = {};
   to.bounces = true;
-  bounces_[k].speed[lane] = float(-of.restitution * approach);
+  bounces_[k].speed[lane] = float(of.restitution * std::sqrt(normal));
 }
 
 double GrainBundles::read(const GrainField& grains, std::span<GrainForces> forces, double hs,

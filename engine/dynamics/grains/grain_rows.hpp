@@ -21,7 +21,8 @@ struct alignas(32) GrainPoint {
 };
 
 /// The same while contacts are solved; half a cache line. Inverse masses are relative to a unit of
-/// mass (GrainMotion), so that no product of small numbers leaves the range of single precision.
+/// mass (GrainSystemRows::mass_unit), so that no product of small numbers leaves the range of
+/// single precision.
 struct alignas(32) GrainRow {
   std::array<float, 3> v{};     ///< [m/s]
   float inverse_mass = 0;       ///< of the unit of mass; 0 while it sleeps [-]

@@ -135,14 +135,17 @@ void RealtimeTick::set_courses(double t) {
 Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
-    if (parts > 1) set_courses((part + 0.5) * (h / parts));
-    if (part > 0)
+    // Also where there is one part: its means are rounded as those after several, so that what
+    // follows has the same bits whether or not other bodies needed parts.
+    set_courses((part + 0.5) * (h / parts));
+    // Those known were found with the means of the tick, which may be 0 where a course turns.
+    if (part > 0 || (parts > 1 && !courses.empty()))
       if (const Status found = find_pairs(h / parts); !found) return found;
     if (stop_requested()) return stopped_error();
     passed = part * (h / parts);
     if (const Status done = advance(h / parts, tuning); !done) return done;
   }
-  if (parts > 1) set_courses(0.5 * h);
+  set_courses(0.5 * h);
   contacts.scale_impulses(parts, bodies);
   sleep();
   listener.slept();

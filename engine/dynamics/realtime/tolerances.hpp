@@ -72,9 +72,8 @@ inline constexpr int drive_sweeps = 3;
 /// hundredth of what contacts need, as only the joint itself is involved. Twice the speed that is
 /// gained in a sub-step is added to it, so that series of bounces end.
 inline constexpr double limit_rest_speed = 0.01;
-/// Accuracy of bounces, relative to their speed [-]: a thousandth, as for
-/// the other rows of a precise island. Each round of bounces and joints removes an eighth to a half
-/// of the error.
+/// Accuracy of bounces, relative to their speed [-]: a thousandth, as for the other rows of a
+/// precise island. Each round of bounces and joints removes an eighth to a half of the error.
 inline constexpr double bounce_error = 1e-3;
 /// Most rounds of bounces and joints at the end of a tick in which something bounced [-]: 2^-32 of
 /// the error is left if each round halves it.

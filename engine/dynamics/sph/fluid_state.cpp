@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -266,6 +267,17 @@ double barrier(const FluidState& s, const WallTouch& t) {
   return mirrored_plane(s.kernel, s.spacing, t.distance);
 }
 
+/// What a body can bear of the layer beside it. Pressures see how it yields to that, which is no
+/// symmetric part of their problem: with a layer of mass m, a body of mass M and the lever l the
+/// problem is positive as long as l^2 m < 4 (1 + l) M, and iterations converge slowly near there.
+double most_lever(const FluidState& s, size_t p, const WallTouch& t) {
+  const double inverse = s.body_defs[t.body].inverse_mass;
+  if (inverse == 0) return std::numeric_limits<double>::infinity();
+  const double layer = s.bodies[t.body].touches * s.density[p] * s.volume[p];
+  const double bound = tolerances::lever_mass / (inverse * layer);
+  return 0.5 * (bound + std::sqrt(bound * bound + 4 * bound));
+}
+
 /// Sum of -V f d d, which is 1 for a fluid without end, and what walls add: next to one a fluid
 /// whose velocity is linear does not go through it, and closes its share by that velocity over the
 /// distance.
@@ -280,7 +292,7 @@ Mat3 moment_with_walls(const FluidState& s, size_t p) {
 
 void find_corrections(FluidState& s) {
   const size_t n = s.size();
-  s.correction.resize(n), s.corrected_gradient.resize(n), s.corrected_diagonal.resize(n);
+  s.correction.resize(n), s.corrected_diagonal.resize(n);
   s.each([&](size_t p) {
     const Mat3 moment = moment_with_walls(s, p);
     const double least = tolerances::least_moment;
@@ -295,11 +307,10 @@ void find_corrections(FluidState& s) {
       // its gradient makes of the distance. That gradient is the acceleration by pressures, of
       // which the wall so gives a part.
       const double part = std::clamp(t.distance * steep, 0.0, tolerances::most_levered);
-      t.lever = part / (1 - part);
+      t.lever = std::min(part / (1 - part), most_lever(s, p, t));
       gradient += t.corrected;
     }
     s.correction[p] = correction;
-    s.corrected_gradient[p] = gradient;
     const double squares = correction.cwiseProduct(correction * s.square_matrix[p]).sum();
     double own = gradient.squaredNorm();
     for (const WallTouch& t : s.touches_of(p)) {

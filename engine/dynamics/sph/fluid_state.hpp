@@ -107,11 +107,10 @@ struct FluidState {
   std::vector<Vec3> gradient;            ///< that and the walls' gradients [1/m]
   std::vector<double> diagonal;  ///< how much a particle's own pressure opens it [m3/(kg m2)]
   /// Of `dfsph`: what makes sums of slopes exact for velocities that are linear in places, and the
-  /// gradient and diagonal with it: see find_corrections.
+  /// diagonal with it: see find_corrections.
   std::vector<Mat3> moment;                ///< of FluidPairSums [-]
   std::vector<Mat3> square_matrix;         ///< of the same, over densities [1/(kg m2)]
   std::vector<Mat3> correction;            ///< [-]
-  std::vector<Vec3> corrected_gradient;    ///< [1/m]
   std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
   std::vector<double> slopes;              ///< sum of V f: see FluidList [1/m2]
   Vec3 origin = Vec3::Zero();              ///< near the fluid, for what is linear in places [m]

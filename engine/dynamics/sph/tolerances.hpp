@@ -26,6 +26,9 @@ inline constexpr int moment_sweeps = 4;
 /// Of the acceleration of a particle by pressures, the part that a wall may give it by the distance
 /// between the two [-]: that of the first layer of a lattice, which is borne by its wall alone.
 inline constexpr double most_levered = 0.5;
+/// Of the square of a lever over one more than it, times the mass of the layer: the most, over the
+/// mass of the body [-]. At 4 pressures have no longer a solution for sure.
+inline constexpr double lever_mass = 1;
 
 /// How much farther lists of neighbours look than kernels reach [reaches], so that they last for
 /// some sub-steps.

@@ -188,7 +188,9 @@ bool JsonTextEdit::append(const Path& array, std::string_view value) {
 
 JsonTextEdit::Span JsonTextEdit::comment_after(size_t end) const {
   const size_t next = skip_space(end);
-  const size_t comma = text_[next] == ',' ? next + 1 : end, to = line_end(comma);
+  const size_t comma = text_[next] == ',' ? next + 1 : end;
+  size_t to = line_end(comma);
+  if (to > comma && text_[to - 1] == '\r') --to;  // ends the line, not the comment
   const size_t begin = std::min(text_.find_first_not_of(" \t", comma), to);
   const bool comment = text_.compare(begin, 2, "//") == 0;
   return comment ? Span{comma, to} : Span{comma, comma};

@@ -113,7 +113,7 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
     bounce_bundles(crew);
     if (!read_blow_changes()) break;
     remember([](const Part& part) { return part.change > 0 && !part.remembered; });
-    solve_struck_joints(crew, hs, JointPass::relaxing, 0);
+    if (has_joints()) solve_struck_joints(crew, hs, JointPass::relaxing, 0);
     for (Part& part : parts_) {
       if (!(part.change > 0)) continue;
       part.blown = true;

@@ -105,7 +105,11 @@ void WideIsland::stage_bodies(const SolverContext& c, double hs, uint32_t begin,
     put_floats(to.v, first.v);
     put_floats(to.w, first.omega);
     for (int i = 0; i < 4; ++i) mass.q[size_t(i)] = float(from.pose.q.coeffs()[i]);
-    if (!from.dynamic()) continue;
+    if (!from.dynamic()) {
+      if (const CourseMotion* const course = course_of(c.courses, slots_[k]))
+        put_floats(to.acceleration, course->change.v);
+      continue;
+    }
     put_floats(to.acceleration, from.gravity_scale * c.gravity + from.inverse_mass * from.force);
     mass.inverse_mass = float(from.inverse_mass);
     mass.uneven = isotropic_inertia(from.inertia_body) ? 0 : 1;
