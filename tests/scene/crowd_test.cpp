@@ -247,7 +247,7 @@ TEST_CASE("thin rings that spin fast move the same whatever else is in the world
       },
       60);
   if (test::only_to_run()) return;
-  // Their tick has parts indeed: with one they come elsewhere.
+  // Their tick has parts inundo_step: with one they come elsewhere.
   WorldSettings whole;
   whole.realtime.max_parts = 1;
   CHECK(history(together(fast_rings(), {}, Order::after), 60) !=

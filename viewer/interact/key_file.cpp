@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The keys that the file assigns to one action.
-struct Wish {
+struct Request {
   Action action;
   std::vector<Chord> chords;  ///< none: no key
 };
@@ -24,8 +24,8 @@ std::vector<std::string> all_names() {
   return out;
 }
 
-std::optional<Wish> read_wish(const std::string& name, const Json& value,
-                              std::vector<std::string>& faults) {
+std::optional<Request> read_request(const std::string& name, const Json& value,
+                                    std::vector<std::string>& faults) {
   const auto action = action_from_name(name);
   if (!action) {
     // A list of all actions would fill the window.
@@ -35,7 +35,7 @@ std::optional<Wish> read_wish(const std::string& name, const Json& value,
     return std::nullopt;
   }
   const Json list = value.is_array() ? value : Json::array({value});
-  Wish wish{*action, {}};
+  Request request{*action, {}};
   for (const Json& one : list) {
     if (!one.is_string()) {
       faults.push_back(name + ": must be a chord such as \"Ctrl+K\", or a list of them");
@@ -52,9 +52,9 @@ std::optional<Wish> read_wish(const std::string& name, const Json& value,
       return std::nullopt;
     }
     const auto same = [&](const Chord& c) { return c.key == chord->key && c.mods == chord->mods; };
-    if (std::ranges::none_of(wish.chords, same)) wish.chords.push_back(*chord);
+    if (std::ranges::none_of(request.chords, same)) request.chords.push_back(*chord);
   }
-  return wish;
+  return request;
 }
 
 const Binding& usual_of(Action action) {
@@ -69,40 +69,41 @@ const Binding* owner_of(const std::vector<Binding>& all, const Chord& chord) {
 
 /// An action whose requested keys were not available keeps its default keys, as far as no other
 /// action has them now.
-void keep_usual(const std::vector<Wish>& wishes, const std::vector<Action>& granted,
+void keep_usual(const std::vector<Request>& requests, const std::vector<Action>& granted,
                 std::vector<Binding>& all) {
-  for (const Wish& wish : wishes) {
-    if (wish.chords.empty() || std::ranges::find(granted, wish.action) != granted.end()) continue;
+  for (const Request& request : requests) {
+    if (request.chords.empty() || std::ranges::find(granted, request.action) != granted.end())
+      continue;
     for (const Binding& usual : usual_bindings())
-      if (usual.action == wish.action && !owner_of(all, {usual.key, usual.mods}))
+      if (usual.action == request.action && !owner_of(all, {usual.key, usual.mods}))
         all.push_back(usual);
   }
 }
 
 /// Applies the requests to the table; a chord that another request already has is left out.
-void grant(const std::vector<Wish>& wishes, std::vector<Binding>& all,
+void grant(const std::vector<Request>& requests, std::vector<Binding>& all,
            std::vector<std::string>& faults) {
-  for (const Wish& wish : wishes)
-    std::erase_if(all, [&](const Binding& b) { return b.action == wish.action; });
+  for (const Request& request : requests)
+    std::erase_if(all, [&](const Binding& b) { return b.action == request.action; });
   std::vector<Action> wished;
-  for (const Wish& wish : wishes) {
-    for (const Chord& chord : wish.chords) {
-      Binding binding = usual_of(wish.action);
+  for (const Request& request : requests) {
+    for (const Chord& chord : request.chords) {
+      Binding binding = usual_of(request.action);
       binding.key = chord.key;
       binding.mods = chord.mods;
       if (const Binding* other = owner_of(all, chord)) {
         const bool both = std::ranges::find(wished, other->action) != wished.end();
-        faults.push_back(
-            fmt::format("{}: {} is {} already: give {} another key, or \"\" for none",
-                        action_name(wish.action), chord_text(binding), action_name(other->action),
-                        both ? "one of them" : std::string(action_name(other->action))));
+        faults.push_back(fmt::format(
+            "{}: {} is {} already: give {} another key, or \"\" for none",
+            action_name(request.action), chord_text(binding), action_name(other->action),
+            both ? "one of them" : std::string(action_name(other->action))));
         continue;
       }
       all.push_back(binding);
-      wished.push_back(wish.action);
+      wished.push_back(request.action);
     }
   }
-  keep_usual(wishes, wished, all);
+  keep_usual(requests, wished, all);
 }
 
 }  // namespace
@@ -158,10 +159,10 @@ std::vector<Binding> read_key_file(std::string_view text, std::vector<std::strin
     faults.push_back("must be an object such as {\"toggle_pause\": \"F2\"}");
     return all;
   }
-  std::vector<Wish> wishes;
+  std::vector<Request> requests;
   for (const auto& [name, value] : json.items())
-    if (auto wish = read_wish(name, value, faults)) wishes.push_back(*std::move(wish));
-  grant(wishes, all, faults);
+    if (auto request = read_request(name, value, faults)) requests.push_back(*std::move(request));
+  grant(requests, all, faults);
   // Sorted like the default bindings, for the help.
   std::ranges::stable_sort(all, {}, [](const Binding& b) {
     return std::ranges::find(usual_bindings(), b.action, &Binding::action) -

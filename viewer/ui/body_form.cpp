@@ -107,7 +107,7 @@ BodyDef at_this_moment(const BodyDef& def, const BodyFrame& body, const BodyInfo
   return now;
 }
 
-std::string deed(const PanelContext& context, const BodyDef& def, const std::string& value) {
+std::string undo_step(const PanelContext& context, const BodyDef& def, const std::string& value) {
   const std::string name =
       def.name.empty() ? fmt::format("body {}", context.model.selected.index) : def.name;
   return fmt::format("Change {} of {}", value, name);
@@ -128,7 +128,7 @@ void draw_body_values(PanelContext& context, const BodyFrame& body, const BodyIn
     BodyDescription::parameters(widgets, now);
     if (widgets.any_common) say_it_is_of_all_copies(context, def);
     if (widgets.changed)
-      context.ask(EditBody{body.id, deed(context, def, widgets.edited),
+      context.ask(EditBody{body.id, undo_step(context, def, widgets.edited),
                            [before, now](BodyDef& d) { apply_changes(before, now, d); }});
   }
 }
@@ -186,10 +186,11 @@ bool draw_removal(PanelContext& context, const BodyDef& def, size_t index) {
   ImGui::PopID();
   context.host.mark(fmt::format("inspector.shape.{}.remove", index));
   if (remove)
-    context.ask(EditBody{context.model.selected, deed(context, def, "shapes"), [index](BodyDef& d) {
-                           if (index < d.shapes.size() && d.shapes.size() > 1)
-                             d.shapes.erase(d.shapes.begin() + std::ptrdiff_t(index));
-                         }});
+    context.ask(
+        EditBody{context.model.selected, undo_step(context, def, "shapes"), [index](BodyDef& d) {
+                   if (index < d.shapes.size() && d.shapes.size() > 1)
+                     d.shapes.erase(d.shapes.begin() + std::ptrdiff_t(index));
+                 }});
   return remove;
 }
 
@@ -224,7 +225,7 @@ void draw_shape_choice(PanelContext& context, const BodyDef& def) {
       const std::string name(entry.name);
       if (ImGui::Selectable(label_of(name).c_str()))
         context.ask(EditBody{
-            context.model.selected, deed(context, def, "shapes"),
+            context.model.selected, undo step(context, def, "shapes"),
             [type = entry.type](BodyDef& d) { d.shapes.push_back(fresh_shape(d, type)); }});
       context.host.mark("inspector.add_shape." + name);
     }
@@ -253,8 +254,8 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
   const std::string prefix = fmt::format("inspector.shape.{}", index);
   MaterialWidgets widgets(context, prefix);
   const auto ask = [&](std::function<void(BodyDef&)> change) {
-    context.ask(
-        EditBody{context.model.selected, deed(context, def, widgets.edited), std::move(change)});
+    context.ask(EditBody{context.model.selected, undo step(context, def, widgets.edited),
+                         std::move(change)});
   };
   if (!is_copy(def) && draw_removal(context, def, index)) return;
   ImGui::BeginDisabled(is_copy(def));

@@ -31,6 +31,6 @@ struct DescriptionView {
 };
 
 /// "Change radius of bodies.ball.shape", as undo names it.
-std::string deed_of(const EditDescription& edit);
+std::string undo_step_of(const EditDescription& edit);
 
 }  // namespace tumble

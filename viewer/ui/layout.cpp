@@ -12,19 +12,19 @@ constexpr float least_open = 120, folded_height = 42;
 /// Least width of the picture for two columns; below, they would leave too little of the scene.
 constexpr float two_columns = left_width + right_width + 2 * margin + 2 * gap + 140;
 
-float wish(const PanelEntry& panel, const UiState& state) {
+float preferred_height(const PanelEntry& panel, const UiState& state) {
   const float measured = state.content_height[size_t(panel.id)];
   return measured > 0 ? measured : panel.usual_height;
 }
 
 struct Docked {
   const PanelEntry* panel;
-  float wish;
+  float preferred_height;
   uint32_t raised;
   enum class Form : uint8_t { open, folded, out } form = Form::open;
 
   float least() const {
-    return form == Form::open     ? std::min(wish, least_open)
+    return form == Form::open     ? std::min(preferred_height, least_open)
            : form == Form::folded ? folded_height
                                   : -gap;
   }
@@ -52,31 +52,32 @@ void make_fit(std::vector<Docked>& column, float height) {
 
 /// A lesson is read in one piece where the others keep enough to be used; the rest is shared.
 std::vector<float> share_with_first(const std::vector<Docked>& column,
-                                    const std::vector<float>& wishes, float available) {
+                                    const std::vector<float>& preferred, float available) {
   const bool taught = !column.empty() && column.front().panel->id == PanelId::lesson &&
                       column.front().form == Docked::Form::open;
-  if (!taught) return share_height(wishes, available);
+  if (!taught) return share_height(preferred, available);
   constexpr float least_beside = 2 * least_open;  // for each other panel that needs as much
   float kept = 0;
-  for (size_t i = 1; i < wishes.size(); ++i) kept += std::min(wishes[i], least_beside);
-  const float lesson = std::min(wishes.front(), std::max(available - kept, least_open));
-  std::vector<float> out = share_height({wishes.begin() + 1, wishes.end()}, available - lesson);
+  for (size_t i = 1; i < preferred.size(); ++i) kept += std::min(preferred[i], least_beside);
+  const float lesson = std::min(preferred.front(), std::max(available - kept, least_open));
+  std::vector<float> out =
+      share_height({preferred.begin() + 1, preferred.end()}, available - lesson);
   out.insert(out.begin(), std::min(lesson, available));
   return out;
 }
 
 void place_column(UiLayout& out, std::vector<Docked>& column, const UiRect& r) {
   make_fit(column, r.height);
-  std::vector<float> wishes;
+  std::vector<float> preferred;
   for (const Docked& m : column)
-    if (m.form == Docked::Form::open) wishes.push_back(m.wish);
+    if (m.form == Docked::Form::open) preferred.push_back(m.preferred_height);
   const float others = least_of(column) - [&] {
     float sum = 0;
     for (const Docked& m : column)
       if (m.form == Docked::Form::open) sum += m.least();
     return sum;
   }();
-  const std::vector<float> heights = share_with_first(column, wishes, r.height - others);
+  const std::vector<float> heights = share_with_first(column, preferred, r.height - others);
   auto height = heights.begin();
   float y = r.y;
   for (const Docked& m : column) {
@@ -92,7 +93,7 @@ std::vector<Docked> shown_at(Dock dock, const UiState& state) {
   std::vector<Docked> out;
   for (const PanelEntry& panel : all_panels())
     if (panel.dock == dock && state.shows(panel.id))
-      out.push_back({&panel, wish(panel, state), state.raised[size_t(panel.id)]});
+      out.push_back({&panel, preferred_height(panel, state), state.raised[size_t(panel.id)]});
   // A lesson comes first, with its plots below it.
   std::ranges::stable_partition(out,
                                 [](const Docked& m) { return m.panel->id == PanelId::lesson; });
@@ -103,7 +104,7 @@ UiRect centred(const PanelEntry& panel, const UiState& state, float width, float
   const float w = std::min(panel.id == PanelId::help ? 1200.0f : 560.0f, width - 2 * margin);
   const float space = height - bar_height - 2 * margin;
   const float top = bar_height + margin;
-  const float h = std::min(wish(panel, state), space);
+  const float h = std::min(preferred_height(panel, state), space);
   if (panel.id != PanelId::scenes) return {0.5f * (width - w), top + 0.4f * (space - h), w, h};
   // A list keeps its top edge while it shrinks; a page of text is centred.
   const float above = 0.06f * space;
@@ -116,8 +117,8 @@ bool has_two_columns(double width) {
   return width >= double(two_columns);
 }
 
-std::vector<float> share_height(const std::vector<float>& wishes, float available) {
-  std::vector<float> sorted = wishes;
+std::vector<float> share_height(const std::vector<float>& preferred, float available) {
+  std::vector<float> sorted = preferred;
   std::sort(sorted.begin(), sorted.end());
   float left = std::max(available, 0.0f), limit = 0;
   for (size_t i = 0; i < sorted.size(); ++i) {
@@ -127,7 +128,7 @@ std::vector<float> share_height(const std::vector<float>& wishes, float availabl
     limit = sorted[i];
   }
   std::vector<float> out;
-  for (const float w : wishes) out.push_back(std::min(w, limit));
+  for (const float w : preferred) out.push_back(std::min(w, limit));
   return out;
 }
 

@@ -29,6 +29,6 @@ UiLayout layout_ui(double width, double height, const UiState& state);
 bool has_two_columns(double width);
 
 /// Shares `available` among needs: each gets min(need, h) with the greatest h that fits.
-std::vector<float> share_height(const std::vector<float>& wishes, float available);
+std::vector<float> share_height(const std::vector<float>& preferred, float available);
 
 }  // namespace tumble

@@ -105,21 +105,21 @@ struct UiModel {
   int threads = 0;  ///< 0: one per core
   bool paused = false;
   double speed = 1;
-  bool behind = false;               ///< the simulation is slower than real time
-  double tick_seconds = 0;           ///< wall time of a step [s]
-  double dropped_seconds = 0;        ///< real time skipped because of that [s]
-  uint64_t first_tick = 0;           ///< earliest tick that can be reached by stepping back
-  uint64_t last_tick = 0;            ///< latest tick known on the present course of the run
-  std::vector<uint64_t> deed_ticks;  ///< ticks at which the user changed something
-  uint64_t next_tick = 1;            ///< the tick being computed, or to be computed next
-  double under_way_seconds = 0;      ///< how long it has been computed; 0: it is not [s]
-  uint64_t way_to = 0;               ///< the tick being sought but not reached; 0: none
-  std::string asking;                ///< the query that the world is answering; "": none
-  double asking_seconds = 0;         ///< for how long it has been [s]
-  std::optional<Error> fault;        ///< why the simulation stopped
-  double picture_seconds = 0;        ///< from one picture to the next, smoothed [s]
-  double drawing_seconds = 0;        ///< wall time of drawing one picture [s]
-  std::string renderer;              ///< name that the graphics driver reports
+  bool behind = false;                    ///< the simulation is slower than real time
+  double tick_seconds = 0;                ///< wall time of a step [s]
+  double dropped_seconds = 0;             ///< real time skipped because of that [s]
+  uint64_t first_tick = 0;                ///< earliest tick that can be reached by stepping back
+  uint64_t last_tick = 0;                 ///< latest tick known on the present course of the run
+  std::vector<uint64_t> undo_step_ticks;  ///< ticks at which the user changed something
+  uint64_t next_tick = 1;                 ///< the tick being computed, or to be computed next
+  double under_way_seconds = 0;           ///< how long it has been computed; 0: it is not [s]
+  uint64_t way_to = 0;                    ///< the tick being sought but not reached; 0: none
+  std::string asking;                     ///< the query that the world is answering; "": none
+  double asking_seconds = 0;              ///< for how long it has been [s]
+  std::optional<Error> fault;             ///< why the simulation stopped
+  double picture_seconds = 0;             ///< from one picture to the next, smoothed [s]
+  double drawing_seconds = 0;             ///< wall time of drawing one picture [s]
+  std::string renderer;                   ///< name that the graphics driver reports
   uint32_t draw_calls = 0;
   uint64_t triangles = 0;
   const History* history = nullptr;

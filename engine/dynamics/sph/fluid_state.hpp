@@ -239,10 +239,9 @@ struct FluidState {
 // With d = x - x' the way from another particle, which is linear in both places, sums of products
 // with d come out of one sum over the others, and of what the particle itself has:
 //   sum of V f (p + p') d = p sum of V f d + x sum of V f p' - sum of V f p' x'
-//   sum of V f (u - u') . d = u . sum of V f d - x . sum of V f u' + sum of V f u' . x'
 
-/// What sum_with_pairs has to be given for the first, and what it makes of it but for the
-/// particle's own p.
+/// What each_with_pairs has to be given for it, and what it makes of that but for the particle's
+/// own p.
 inline FluidVector pressing(const FluidState& s, size_t p, double pressure) {
   const double w = s.volume[p] * pressure;
   const Vec3 x = w * s.local(p);

@@ -1,4 +1,4 @@
-// Reference: places by hand, and the state hash before a deed and after it was taken back.
+// Reference: places by hand, and the state hash before an undo step and after it was taken back.
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
 
@@ -29,7 +29,7 @@ bool selected(Rig& rig, std::string_view name) {
 
 }  // namespace
 
-TEST_CASE("Ctrl selects more, a box what is in it, and Del deletes all of them as one deed") {
+TEST_CASE("Ctrl selects more, a box what is in it, and Del deletes all of them as one undo step") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1400, 900, 1};
@@ -57,7 +57,7 @@ TEST_CASE("Ctrl selects more, a box what is in it, and Del deletes all of them a
   check_no_faults(*device);
 }
 
-TEST_CASE("an arm moves all that is selected, in one deed, and the file learns of it") {
+TEST_CASE("an arm moves all that is selected, in one undo step, and the file learns of it") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1400, 900, 1};

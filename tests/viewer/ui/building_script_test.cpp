@@ -62,7 +62,7 @@ TEST_CASE("a body that a joint, a spring, a camera and a plot refer to is delete
   CHECK(saved.assertions.empty());
   REQUIRE(saved.cameras.find("main"));
   CHECK(saved.cameras.find("main")->follow.empty());
-  // One deed: taken back once, all is there again, and the file is what it was.
+  // One undo step: taken back once, all is there again, and the file is what it was.
   b.play("key Ctrl+Z\nwait 3");
   CHECK(b.hash() == before);
   CHECK(b.rig.app->locate("parts.forces.spring").has_value());

@@ -1,4 +1,4 @@
-// Reference: the state hash of the world before and after each deed, poses by hand.
+// Reference: the state hash of the world before and after each undo step, poses by hand.
 #include "engine/math/rotation.hpp"
 #include "engine/world/world.hpp"
 #include "tests/viewer/ui/session_rig.hpp"
@@ -52,7 +52,8 @@ TEST_CASE("a body that was deleted comes back, and goes again") {
   check_no_faults(*device);
 }
 
-TEST_CASE("a run that is begun again is without the deeds of the one before, until they are back") {
+TEST_CASE(
+    "a run that is begun again is without the undo steps of the one before, until they are back") {
   TestWorld w;
   (void)w.add(TestWorld::box_def({0, 2, 0}));
   SessionOptions options;
@@ -79,7 +80,7 @@ TEST_CASE("a run that is begun again is without the deeds of the one before, unt
   CHECK(session.advance(0).ok());
 }
 
-TEST_CASE("undo while it runs goes back to the moment of the deed, redo to where one was") {
+TEST_CASE("undo while it runs goes back to the moment of the undo step, redo to where one was") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.play("wait 20\nclick body:box\nkey Del");
@@ -99,7 +100,7 @@ TEST_CASE("undo while it runs goes back to the moment of the deed, redo to where
   CHECK(says(rig, "nothing to do again"));
 }
 
-TEST_CASE("a pull, a shot and a changed setting are one deed each") {
+TEST_CASE("a pull, a shot and a changed setting are one undo step each") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.play("wait 30\nclick transport.pause");
@@ -186,7 +187,7 @@ TEST_CASE("what is taken back leaves a body selected that still stands") {
   check_no_faults(*device);
 }
 
-TEST_CASE("values of a body are changed in the panel, with one deed for each pull") {
+TEST_CASE("values of a body are changed in the panel, with one undo step for each pull") {
   const auto device = make_null_device();
   Rig rig(*device);
   rig.picture = {1200, 1000, 1};
@@ -337,7 +338,7 @@ TEST_CASE("the timeline goes to any tick that has been, with the same state as t
   CHECK(rig.tick() > half);
   rig.play("click " + at(end) + "\nwait 5");
   CHECK(rig.tick() == end);
-  // A deed in the past ends the course that was.
+  // An undo step in the past ends the course that was.
   rig.play("click " + at(half) + "\nwait 5\nclick body:box\nkey Del\nwait 3\nclick " + at(end) +
            "\nwait 5");
   CHECK(rig.tick() == half);
@@ -454,7 +455,8 @@ TEST_CASE("a number of the scene that was chosen anew is taken back and chosen a
   rig.play("key Ctrl+Shift+Z\nwait 3");
   CHECK(says(rig, "Done again: Change h"));
   CHECK(rig.height("ball") == 4);
-  // A deed is taken back before the choice that it came after, and ends what could be done again.
+  // An undo step is taken back before the choice that it came after, and ends what could be done
+  // again.
   rig.app->ask(EditBody{rig.app->session().world().find_body("ball"), "Change mass of ball",
                         [](BodyDef& d) { d.mass = 7; }});
   rig.play("wait 3\nkey Ctrl+Z\nwait 3");
@@ -472,7 +474,8 @@ TEST_CASE("a number of the scene that was chosen anew is taken back and chosen a
   check_no_faults(*device);
 }
 
-TEST_CASE("what was done before a number of the scene changed is taken back deed by deed") {
+TEST_CASE(
+    "what was done before a number of the scene changed is taken back undo step by undo step") {
   const auto device = make_null_device();
   Rig rig(*device);
   const std::string file = (rig.folder.path() / "mine.json").string();

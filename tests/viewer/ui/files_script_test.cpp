@@ -390,7 +390,7 @@ TEST_CASE(
   check_no_faults(*b.device);
 }
 
-TEST_CASE("a deed that was done just now keeps the name of its scene, and is asked about") {
+TEST_CASE("an undo step that was done just now keeps the name of its scene, and is asked about") {
   Laboratory b;
   b.play("key Ctrl+N\nwait 3\nclick build.sphere\nclick " + b.at({0, 0, 0}) + "\nkey Ctrl+Q");
   CHECK_FALSE(b.rig.app->quit_requested());

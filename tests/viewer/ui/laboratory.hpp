@@ -21,7 +21,7 @@ struct Laboratory {
 }
 )";
   uint64_t start_hash = 0;
-  int deeds = 0;
+  int undo_steps = 0;
 
   Laboratory() {
     rig.picture = {2600, 2600, 1};

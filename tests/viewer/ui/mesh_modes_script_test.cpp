@@ -24,7 +24,8 @@ bool wait_for(Rig& rig, const Happened& happened) {
 
 }  // namespace
 
-TEST_CASE("a mesh is let collide in another way, which is one deed, and all ways are compared") {
+TEST_CASE(
+    "a mesh is let collide in another way, which is one undo step, and all ways are compared") {
   const auto device = make_null_device();
   Rig rig(*device, "meshes");
   rig.picture = {1200, 900, 1};

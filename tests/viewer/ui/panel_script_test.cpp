@@ -196,7 +196,7 @@ TEST_CASE("a number that Esc gives up leaves nothing to be taken back") {
   REQUIRE(rig.app->settings().gravity.y() == -3);
   rig.play("key Ctrl+Z\nwait 3");
   CHECK(rig.app->settings().gravity.y() == doctest::Approx(-9.81));
-  // What is typed after that is a deed of its own.
+  // What is typed after that is an undo step of its own.
   type("-5", "Esc");
   type("-4", "Enter");
   CHECK(rig.app->settings().gravity.y() == -4);

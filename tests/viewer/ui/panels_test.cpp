@@ -82,11 +82,11 @@ TEST_CASE("in a low window the panel shown last is open, and a click on another 
 
 TEST_CASE("a lesson is read in one piece above the panels beside it while they can be used") {
   UiState state;
-  for (const auto& [id, wish] : {std::pair(PanelId::lesson, 420.0f),
-                                 {PanelId::energy, 600.0f},
-                                 {PanelId::measure, 500.0f}}) {
+  for (const auto& [id, height] : {std::pair(PanelId::lesson, 420.0f),
+                                   {PanelId::energy, 600.0f},
+                                   {PanelId::measure, 500.0f}}) {
     state.shows(id) = true;
-    state.content_height[size_t(id)] = wish;
+    state.content_height[size_t(id)] = height;
   }
   state.raise_new();
   // From the top: the lesson, energy and the plot share a column 8 units apart.
@@ -127,7 +127,7 @@ TEST_CASE("the bar's pieces follow each other without overlap at every width") {
   CHECK(plan_bar(480, {200, 330, 62}).steps);
 }
 
-TEST_CASE("a column is shared so that small wishes are met first") {
+TEST_CASE("a column is shared so that small heights are met first") {
   const auto sum = [](const std::vector<float>& v) {
     return std::accumulate(v.begin(), v.end(), 0.0f);
   };

@@ -49,14 +49,14 @@ TEST_CASE("a part that loses a name is described anew, and can be changed afterw
   World& world = *built->world;
   SceneDescription parts = parts_of(read.scene);
   const auto live = std::make_shared<LiveParts>(*built);
-  PartsDesk desk;
-  desk.open(std::make_shared<const SceneDescription>(parts), live);
+  PartsController controller;
+  controller.open(std::make_shared<const SceneDescription>(parts), live);
   SceneFile file;
   file.text = scene_text;
   file.path = "x.json";
   const auto edits = std::make_shared<std::vector<SceneEdit>>();
   const Refusal told;
-  const Removal removal(file, {edits}, edits, desk, told);
+  const Removal removal(file, {edits}, edits, controller, told);
   for (const char* name : {"ball", "row[0]", "row[2]"}) {
     REQUIRE(world.destroy_body(world.find_body(name)).ok());
     removal.take(world, RemovedBody{name});

@@ -115,7 +115,7 @@ TEST_CASE("a pack from the window holds the scene with its numbers, and a replay
 TEST_CASE("a scene with values that no file has is not packed with its replay, and it says why") {
   const auto device = make_null_device();
   ReplayRig rig(*device);
-  rig.app->open(SceneWish{rig.file.string(), {"bodies.ball.mass=3"}, {}});
+  rig.app->open(OpenRequest{rig.file.string(), {"bodies.ball.mass=3"}, {}});
   rig.play("wait 3\nkey Ctrl+Shift+F9\nwait 3");
   CHECK(says(rig, "bodies.ball.mass=3"));
   CHECK_FALSE(std::filesystem::exists(rig.saved("tumble-small-replay-000.tumble")));

@@ -38,7 +38,7 @@ inline OpenedScene small_scene(const std::string& name) {
   scene.view.follow_x = Vec3(2, 4, 0);
   scene.world = std::move(w.world);
   scene.name = name;
-  scene.wish.scene = name;
+  scene.request.scene = name;
   scene.parameters = {{"count", "how many boxes", 3, 1, 10},
                       {"gap", "between them [m]", 0.5, {}, {}}};
   Camera camera;
@@ -70,11 +70,11 @@ struct Rig {
     options.preferences_file = folder.path() / "config/window.json";
     options.capture_folder = folder.path();
     options.unsaved_folder = unsaved();
-    options.open = [this](const SceneWish& wish) -> Result<OpenedScene> {
-      const std::string& name = wish.scene;
-      wished = wish.overrides;
+    options.open = [this](const OpenRequest& wanted) -> Result<OpenedScene> {
+      const std::string& name = wanted.scene;
+      wished = wanted.overrides;
       if ((name.ends_with(".json") || name.ends_with(".tumble")) && std::filesystem::exists(name))
-        return open_scene(SceneRequest{name, wish.overrides, wish.text, {}, 1, {}, {}}, 1.6);
+        return open_scene(SceneRequest{name, wanted.overrides, wanted.text, {}, 1, {}, {}}, 1.6);
       if (name != "first" && name != "second" && name != "overlays")
         return Error{ErrorCode::parse, "a.json:3: bodies.x: unknown key\na.json:9: two", {}, {}};
       return small_scene(name);

@@ -1,7 +1,7 @@
 // What a person marks in time, the file that keeps it, and angles. References: ticks counted by
 // hand, every pair of small ticks, and angles in closed form.
 #include "tests/support/temp_folder.hpp"
-#include "viewer/app/window/marks_desk.hpp"
+#include "viewer/app/window/marks_controller.hpp"
 #include "viewer/app/window/ruler.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
@@ -109,14 +109,14 @@ TEST_CASE("bookmarks that cannot be written are kept back and tried again") {
   const TempFolder folder;
   const auto in_the_way = folder.path() / "config";
   REQUIRE(write_file(in_the_way, std::string_view("a file where a folder should be")).ok());
-  MarksDesk desk(in_the_way / "bookmarks.json");
-  REQUIRE(desk.open("/a.json", 1.0 / 60).ok());
-  desk.change([](SceneMarks& marks) { marks.time.toggle(30, "here"); });
-  CHECK_FALSE(desk.keep().ok());
-  CHECK(desk.keep().ok());  // said once
-  CHECK_FALSE(desk.keep(true).ok());
+  MarksController controller(in_the_way / "bookmarks.json");
+  REQUIRE(controller.open("/a.json", 1.0 / 60).ok());
+  controller.change([](SceneMarks& marks) { marks.time.toggle(30, "here"); });
+  CHECK_FALSE(controller.keep().ok());
+  CHECK(controller.keep().ok());  // said once
+  CHECK_FALSE(controller.keep(true).ok());
   REQUIRE(std::filesystem::remove(in_the_way));
-  CHECK(desk.keep(true).ok());
+  CHECK(controller.keep(true).ok());
   const auto text = read_file(in_the_way / "bookmarks.json");
   REQUIRE(text.ok());
   CHECK(text->find("\"here\"") != std::string::npos);

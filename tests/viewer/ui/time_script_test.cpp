@@ -310,7 +310,7 @@ TEST_CASE("bookmarks and keys of the flight are taken back in the order of all t
   CHECK(rig.height("box") == -1);
   CHECK(marks().flight.size() == 1);
   CHECK(marks().time.bookmarks[0].name == "touch");
-  // Which span is looped is no deed.
+  // Which span is looped is no undo step.
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(marks().time.bookmarks[0].name == "mark 1");
   check_no_faults(*device);

@@ -82,14 +82,14 @@ int run_open(OpenLine& line) {
   options.application.preferences = take_up_user_files(options.application.faults);
   // Overrides and stepper apply only to the scene of the command line, not to scenes opened later.
   // The replay belongs to that scene, however often it is opened.
-  options.application.open = [asked = line.request, aspect](const SceneWish& wish) {
+  options.application.open = [asked = line.request, aspect](const OpenRequest& wanted) {
     SceneRequest request;
-    request.scene = wish.scene;
-    request.overrides = wish.overrides;
-    request.text = wish.text;
+    request.scene = wanted.scene;
+    request.overrides = wanted.overrides;
+    request.text = wanted.text;
     request.threads = asked.threads;
     request.log = asked.log;
-    if (wish.scene == asked.scene) request.replay = asked.replay;
+    if (wanted.scene == asked.scene) request.replay = asked.replay;
     return open_scene(request, aspect);
   };
   return run_window(std::move(options), std::move(*scene));

@@ -52,8 +52,8 @@ uint64_t frames_of_replay(const ReplayPlayer& player, const FramesFile& plan) {
 
 /// Whether the run may have a replay, which would determine the number of frames.
 bool may_play(const RenderLine& line) {
-  const ReplayWish& wish = line.request.replay;
-  return !wish.none && (!wish.file.empty() || is_pack_file(line.request.scene));
+  const ReplayRequest& wanted = line.request.replay;
+  return !wanted.none && (!wanted.file.empty() || is_pack_file(line.request.scene));
 }
 
 /// Determines rate, size and number of frames (still unknown if a replay may determine it). For

@@ -285,9 +285,9 @@ ExitCode exit_code_of_export(const Error& error) {
 
 /// Whether the run may have a replay, which would determine its length.
 bool may_play(const SimulateLine& line) {
-  const ReplayWish& wish = line.request.replay;
-  return !line.convergence && !wish.none && line.seconds.empty() && !line.steps &&
-         (!wish.file.empty() || is_pack_file(line.request.scene));
+  const ReplayRequest& wanted = line.request.replay;
+  return !line.convergence && !wanted.none && line.seconds.empty() && !line.steps &&
+         (!wanted.file.empty() || is_pack_file(line.request.scene));
 }
 
 /// Contribution of a replay to the key that identifies equal runs; empty for none.

@@ -12,7 +12,7 @@ using Start = std::vector<std::pair<BodyId, BodyDef>>;
 
 /// Runs on the simulation thread.
 void displace(World& world, const Bodies& bodies, Start& start, const Displacement& way, bool held,
-              const DeedEdits& edits, const Refusal& refusal) {
+              const UndoStepEdits& edits, const Refusal& refusal) {
   if (start.empty())
     for (const BodyId id : bodies)
       if (auto def = world.body_def(id)) start.emplace_back(id, *std::move(def));
@@ -90,7 +90,7 @@ void Arranger::end() {
   active_ = false;
 }
 
-void Arranger::apply(Session& session, const Displacement& way, DeedEdits edits,
+void Arranger::apply(Session& session, const Displacement& way, UndoStepEdits edits,
                      Refusal refusal) const {
   session.post(
       [bodies = bodies_, start = start_, way, held = !session.paused(), edits = std::move(edits),
@@ -98,7 +98,7 @@ void Arranger::apply(Session& session, const Displacement& way, DeedEdits edits,
 }
 
 void Arranger::apply_once(Session& session, const Selection& selection, const Displacement& way,
-                          DeedEdits edits, Refusal refusal) {
+                          UndoStepEdits edits, Refusal refusal) {
   session.post([bodies = selection.all(), way, edits = std::move(edits), refusal](World& world) {
     Start start;
     displace(world, bodies, start, way, false, edits, refusal);

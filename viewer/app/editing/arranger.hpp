@@ -40,10 +40,10 @@ class Arranger {
   /// Displaces the bodies by `way` relative to their definitions at the begin of the drag, and
   /// records the changes to the scene's file in `edits`. In a running simulation they are held at
   /// rest during the drag.
-  void apply(Session& session, const Displacement& way, DeedEdits edits, Refusal refusal) const;
+  void apply(Session& session, const Displacement& way, UndoStepEdits edits, Refusal refusal) const;
   /// The same in one step, for typed numbers.
   static void apply_once(Session& session, const Selection& selection, const Displacement& way,
-                         DeedEdits edits, Refusal refusal);
+                         UndoStepEdits edits, Refusal refusal);
 
   /// Draws the handles at the selected bodies, with the one under the pointer highlighted.
   void draw(const Frame& shown, const Selection& selection, const HandleSettings& settings,

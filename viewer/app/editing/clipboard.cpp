@@ -27,7 +27,7 @@ void BodyClipboard::copy(Session& session, const Selection& bodies, const std::s
 }
 
 std::future<std::vector<BodyId>> BodyClipboard::paste(Session& session, const std::string& scene,
-                                                      const PastePlace& place, DeedEdits edits,
+                                                      const PastePlace& place, UndoStepEdits edits,
                                                       Refusal refusal) const {
   return session.call([group = group_, place, same = scene == scene_, edits = std::move(edits),
                        refusal](World& world) -> std::vector<BodyId> {

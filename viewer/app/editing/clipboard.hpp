@@ -29,7 +29,7 @@ class BodyClipboard {
   size_t count() const { return count_; }
   /// Pastes copies into a scene, with the centre of their bounding box above the place.
   std::future<std::vector<BodyId>> paste(Session& session, const std::string& scene,
-                                         const PastePlace& place, DeedEdits edits,
+                                         const PastePlace& place, UndoStepEdits edits,
                                          Refusal refusal) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace tumble {
 
 void Duplicator::copy(Session& session, const Selection& bodies, const Vec3& aside, bool repeat,
-                      DeedEdits edits) {
+                      UndoStepEdits edits) {
   const bool again = repeat && !copies_.empty() && bodies.main() == copies_.back();
   const BodyId before = again ? original_ : BodyId{};
   original_ = bodies.main();

@@ -19,7 +19,7 @@ class Duplicator {
   /// false, the present displacement between originals and copies is due to the simulation and is
   /// ignored. Changes to the scene's file are recorded in `edits`.
   void copy(Session& session, const Selection& bodies, const Vec3& aside, bool repeat,
-            DeedEdits edits);
+            UndoStepEdits edits);
   /// Bodies created elsewhere: selected as soon as they exist, but not repeated.
   void await(std::future<std::vector<BodyId>> copies);
   /// The copies requested last, once, as soon as the frame contains them.

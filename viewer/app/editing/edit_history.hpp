@@ -12,14 +12,15 @@
 
 namespace tumble {
 
-/// Undo history of the user's changes. A change (deed) consists of its description and a snapshot
-/// of the world just before it: undo restores that snapshot, including its past, and the simulation
-/// continues from there. Redo restores the moment at which the change was undone.
+/// Undo history of the user's changes. A change (undo step) consists of its description and a
+/// snapshot of the world just before it: undo restores that snapshot, including its past, and the
+/// simulation continues from there. Redo restores the moment at which the change was undone.
 class EditHistory {
  public:
   /// Begins a change `what` ("Delete crate"); changes that were undone are dropped. Returns the
   /// list in which to record what it changes about the scene's file.
-  DeedEdits begin(Session& session, std::string what, uint64_t tick, std::vector<BodyId> selected);
+  UndoStepEdits begin(Session& session, std::string what, uint64_t tick,
+                      std::vector<BodyId> selected);
   /// Records a change that does not concern the world. `exchange` swaps the former and the present
   /// state, so that it serves both undo and redo.
   void note_beside(std::string what, std::function<void()> exchange);
@@ -39,13 +40,13 @@ class EditHistory {
   void forget() { *this = EditHistory{}; }
 
   /// The edits of the scene's file by all changes in effect, in order.
-  std::vector<DeedEdits> file_edits() const;
+  std::vector<UndoStepEdits> file_edits() const;
   /// Descriptions and edits of all changes of the world in effect, in order.
-  std::vector<std::pair<std::string, DeedEdits>> deeds() const;
+  std::vector<std::pair<std::string, UndoStepEdits>> undo_steps() const;
   /// Edits of changes that are in effect but too old to be undone.
-  const std::vector<DeedEdits>& forgotten() const { return forgotten_; }
+  const std::vector<UndoStepEdits>& forgotten() const { return forgotten_; }
   /// Edits of the newest change of the world, which must exist.
-  DeedEdits newest() const;
+  UndoStepEdits newest() const;
   /// The ticks at which the changes of the world in effect were made.
   std::vector<uint64_t> ticks() const;
   /// The same for changes since the last restart, on the present course of the run.
@@ -58,10 +59,10 @@ class EditHistory {
   bool empty() const;
 
  private:
-  struct Deed {
+  struct UndoStep {
     std::string what;
     uint64_t tick = 0;
-    DeedEdits edits;
+    UndoStepEdits edits;
     std::shared_ptr<const Session::Kept> moment;
     std::vector<BodyId> selected;  ///< at that moment
     int course = 0;                ///< the course of the run to which that moment belongs
@@ -70,14 +71,14 @@ class EditHistory {
   };
   /// Goes to the moment of the newest change of `from`; the change moves to `to` with the present
   /// moment.
-  std::optional<Back> go(Session& session, std::deque<Deed>& from, std::deque<Deed>& to,
+  std::optional<Back> go(Session& session, std::deque<UndoStep>& from, std::deque<UndoStep>& to,
                          std::vector<BodyId> selected);
   void drop_oldest();
 
-  std::vector<DeedEdits> forgotten_;  ///< edits of changes too old to be undone
-  std::deque<Deed> done_;             ///< with the moment before each
+  std::vector<UndoStepEdits> forgotten_;  ///< edits of changes too old to be undone
+  std::deque<UndoStep> done_;             ///< with the moment before each
   int course_ = 0, courses_ = 0;
-  std::deque<Deed> undone_;  ///< with the moment at which each was undone; the newest last
+  std::deque<UndoStep> undone_;  ///< with the moment at which each was undone; the newest last
 };
 
 }  // namespace tumble

@@ -1,7 +1,7 @@
 #include "viewer/app/editing/edits_at_start.hpp"
 
 #include "engine/world/world.hpp"
-#include "viewer/app/editing/parts_desk.hpp"
+#include "viewer/app/editing/parts_controller.hpp"
 
 namespace tumble {
 namespace {
@@ -92,12 +92,12 @@ struct AtStart {
 
 }  // namespace
 
-void do_at_start(World& world, const std::vector<DeedEdits>& deeds,
+void do_at_start(World& world, const std::vector<UndoStepEdits>& undo_steps,
                  const std::shared_ptr<const SceneDescription>& parts,
                  const std::shared_ptr<LiveParts>& live, const Refusal& refusal) {
   AtStart at_start{world, *parts, *live};
-  for (const DeedEdits& deed : deeds)
-    for (SceneEdit& edit : *deed) {
+  for (const UndoStepEdits& undo_step : undo_steps)
+    for (SceneEdit& edit : *undo_step) {
       fold_part(at_start.parts, edit);
       Status done = std::visit(at_start, edit);
       // Later edits refer by name to what earlier ones have created.

@@ -13,7 +13,7 @@ namespace tumble {
 /// edit did not change keeps its initial value, whenever the edit was made; a body that does not
 /// exist at the start is skipped. Settings are not applied: see ShownSettings::restart. `parts`: as
 /// the scene was opened. Rejections are reported to `refusal`.
-void do_at_start(World& world, const std::vector<DeedEdits>& deeds,
+void do_at_start(World& world, const std::vector<UndoStepEdits>& undo_steps,
                  const std::shared_ptr<const SceneDescription>& parts,
                  const std::shared_ptr<LiveParts>& live, const Refusal& refusal);
 

@@ -13,21 +13,21 @@ bool is_ready(const std::future<T>& future) {
 
 }  // namespace
 
-void MeshModes::measure(const MeasureMesh& wish) {
-  if (measuring() || !wish.mesh) return;
-  measurement_ = std::async(std::launch::async, [this, mesh = wish.mesh] {
+void MeshModes::measure(const MeasureMesh& wanted) {
+  if (measuring() || !wanted.mesh) return;
+  measurement_ = std::async(std::launch::async, [this, mesh = wanted.mesh] {
     const Stoppable scope(&stop_);
     MeasuredMesh out{mesh, measure_representations(mesh)};
     return std::make_shared<const MeasuredMesh>(std::move(out));
   });
 }
 
-void MeshModes::change(const ChangeMeshMode& wish) {
-  if (changing() || !wish.source) return;
-  change_ = std::async(std::launch::async, [this, wish] {
+void MeshModes::change(const ChangeMeshMode& wanted) {
+  if (changing() || !wanted.source) return;
+  change_ = std::async(std::launch::async, [this, wanted] {
     const Stoppable scope(&stop_);
     // Options of the former representation do not apply to the new one.
-    return Change{wish, mesh_parts(wish.source->mesh, {.mode = wish.mode})};
+    return Change{wanted, mesh_parts(wanted.source->mesh, {.mode = wanted.mode})};
   });
 }
 

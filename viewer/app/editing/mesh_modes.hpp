@@ -18,12 +18,12 @@ class MeshModes {
   MeshModes(const MeshModes&) = delete;
   MeshModes& operator=(const MeshModes&) = delete;
 
-  void measure(const MeasureMesh& wish);
-  void change(const ChangeMeshMode& wish);
+  void measure(const MeasureMesh& wanted);
+  void change(const ChangeMeshMode& wanted);
 
   /// The requested shapes, or why there are none.
   struct Change {
-    ChangeMeshMode wish;
+    ChangeMeshMode request;
     Result<MeshParts> parts;
   };
   /// Takes a finished result: a change is returned once, a measurement is kept.

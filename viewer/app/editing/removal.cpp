@@ -18,12 +18,12 @@ bool goes_on_when_set(const PartDescription& part) {
 
 }  // namespace
 
-Removal::Removal(const SceneFile& file, std::vector<DeedEdits> deeds, DeedEdits edits,
-                 const PartsDesk& desk, Refusal told)
-    : deeds_(std::move(deeds)),
+Removal::Removal(const SceneFile& file, std::vector<UndoStepEdits> undo_steps, UndoStepEdits edits,
+                 const PartsController& controller, Refusal told)
+    : undo_steps_(std::move(undo_steps)),
       edits_(std::move(edits)),
-      parts_(desk.parts()),
-      live_(desk.live()),
+      parts_(controller.parts()),
+      live_(controller.live()),
       told_(std::move(told)) {
   taking_->text = file.text;
   taking_->file = file.path.string();
@@ -34,7 +34,8 @@ void Removal::take(World& world, const SceneEdit& removal) const {
   if (!taking_->text.empty()) {
     if (!taking_->rest) {
       std::vector<SceneEdit> before;
-      for (const DeedEdits& deed : deeds_) before.insert(before.end(), deed->begin(), deed->end());
+      for (const UndoStepEdits& undo_step : undo_steps_)
+        before.insert(before.end(), undo_step->begin(), undo_step->end());
       taking_->rest = std::make_unique<FileRemovals>(taking_->text, before);
     }
     along = taking_->rest->take(removal);

@@ -1,5 +1,5 @@
 #pragma once
-#include "viewer/app/editing/parts_desk.hpp"
+#include "viewer/app/editing/parts_controller.hpp"
 #include "viewer/app/session/refusal.hpp"
 
 #include <memory>
@@ -13,9 +13,9 @@ namespace tumble {
 /// step, other references are dropped, and the user is informed. For jobs on the simulation thread.
 class Removal {
  public:
-  /// `deeds`: all unsaved edits, those of the removal itself (`edits`) last.
-  Removal(const SceneFile& file, std::vector<DeedEdits> deeds, DeedEdits edits,
-          const PartsDesk& desk, Refusal told);
+  /// `undo_steps`: all unsaved edits, those of the removal itself (`edits`) last.
+  Removal(const SceneFile& file, std::vector<UndoStepEdits> undo_steps, UndoStepEdits edits,
+          const PartsController& controller, Refusal told);
   /// Records what was removed from the world, and removes what depended on it.
   void take(World& world, const SceneEdit& removal) const;
   /// To be called after all removals: remaining parts that lost a reference are described anew, and
@@ -32,8 +32,8 @@ class Removal {
     std::vector<TakenAlong> along;
   };
   std::shared_ptr<Taking> taking_ = std::make_shared<Taking>();
-  std::vector<DeedEdits> deeds_;
-  DeedEdits edits_;
+  std::vector<UndoStepEdits> undo_steps_;
+  UndoStepEdits edits_;
   std::shared_ptr<const SceneDescription> parts_;
   std::shared_ptr<LiveParts> live_;
   Refusal told_;

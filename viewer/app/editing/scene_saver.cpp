@@ -30,10 +30,12 @@ bool names_files(const std::string& scene) {
 
 }  // namespace
 
-std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds) {
-  return session.call([deeds = std::move(deeds)](World&) {
+std::future<std::vector<SceneEdit>> collect_edits(Session& session,
+                                                  std::vector<UndoStepEdits> undo_steps) {
+  return session.call([undo_steps = std::move(undo_steps)](World&) {
     std::vector<SceneEdit> all;
-    for (const DeedEdits& deed : deeds) all.insert(all.end(), deed->begin(), deed->end());
+    for (const UndoStepEdits& undo_step : undo_steps)
+      all.insert(all.end(), undo_step->begin(), undo_step->end());
     return all;
   });
 }
@@ -43,14 +45,14 @@ void SceneSaver::open(SceneFile file) {
   file_ = std::move(file);
 }
 
-void SceneSaver::prepare(Session& session, std::vector<DeedEdits> deeds,
+void SceneSaver::prepare(Session& session, std::vector<UndoStepEdits> undo_steps,
                          std::vector<SceneEdit> others, bool beside) {
   preview_.reset();
   tried_.reset();
   trial_.reset();
   beside_ = beside;
   others_ = std::move(others);
-  collected_ = collect_edits(session, std::move(deeds));
+  collected_ = collect_edits(session, std::move(undo_steps));
 }
 
 void SceneSaver::update() {

@@ -16,10 +16,11 @@ namespace tumble {
 
 /// The edits that a change by the user makes to the scene's file; filled and read on the simulation
 /// thread.
-using DeedEdits = std::shared_ptr<std::vector<SceneEdit>>;
+using UndoStepEdits = std::shared_ptr<std::vector<SceneEdit>>;
 
 /// The edits of all changes together, as soon as the simulation thread has them.
-std::future<std::vector<SceneEdit>> collect_edits(Session& session, std::vector<DeedEdits> deeds);
+std::future<std::vector<SceneEdit>> collect_edits(Session& session,
+                                                  std::vector<UndoStepEdits> undo_steps);
 
 /// The file of a scene as it was opened.
 struct SceneFile {
@@ -38,8 +39,8 @@ class SceneSaver {
  public:
   void open(SceneFile file);
   /// `beside`: the result is test-opened on a thread of its own; otherwise in update().
-  void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others,
-               bool beside);
+  void prepare(Session& session, std::vector<UndoStepEdits> undo_steps,
+               std::vector<SceneEdit> others, bool beside);
   /// Takes the changes when they have arrived.
   void update();
   /// Null until prepare() has finished.

@@ -163,7 +163,8 @@ std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
   return std::nullopt;
 }
 
-void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, double dt) {
+void UnsavedWork::update(Session& session, const std::vector<UndoStepEdits>& undo_steps,
+                         double dt) {
   since_ += dt;
   if (collected_.valid()) {
     if (collected_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
@@ -173,33 +174,35 @@ void UnsavedWork::update(Session& session, const std::vector<DeedEdits>& deeds, 
   if (!stale_ || file_.text.empty() || since_ < seconds_between_looks) return;
   stale_ = false;
   since_ = 0;
-  collected_ = collect_edits(session, deeds);
+  collected_ = collect_edits(session, undo_steps);
 }
 
-void UnsavedWork::finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread) {
+void UnsavedWork::finish(Session& session, const std::vector<UndoStepEdits>& undo_steps,
+                         bool own_thread) {
   if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
   // A query sent before the newest change does not include it.
-  if (stale_ || !collected_.valid()) collected_ = collect_edits(session, deeds);
+  if (stale_ || !collected_.valid()) collected_ = collect_edits(session, undo_steps);
   stale_ = false;
   if (!own_thread) (void)session.advance(0);
   if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
 }
 
 std::vector<std::string> UnsavedWork::texts_after(const std::string& start, Session& session,
-                                                  const std::vector<DeedEdits>& too_old,
-                                                  const std::vector<DeedEdits>& deeds,
+                                                  const std::vector<UndoStepEdits>& too_old,
+                                                  const std::vector<UndoStepEdits>& undo_steps,
                                                   bool own_thread) const {
-  if (file_.text.empty() || deeds.empty()) return {};
+  if (file_.text.empty() || undo_steps.empty()) return {};
   auto old = collect_edits(session, too_old);
   std::vector<std::future<std::vector<SceneEdit>>> each;
-  for (const DeedEdits& deed : deeds) each.push_back(collect_edits(session, {deed}));
+  for (const UndoStepEdits& undo_step : undo_steps)
+    each.push_back(collect_edits(session, {undo_step}));
   if (!own_thread) (void)session.advance(0);
   if (each.back().wait_for(patience) != std::future_status::ready) return {};
   std::vector<SceneEdit> edits = old.get();
   std::vector<std::string> out;
   std::string text = text_with(start, edits).value_or(start);
-  for (auto& deed : each) {
-    for (SceneEdit& edit : deed.get()) edits.push_back(std::move(edit));
+  for (auto& undo_step : each) {
+    for (SceneEdit& edit : undo_step.get()) edits.push_back(std::move(edit));
     text = text_with(start, edits).value_or(text);
     out.push_back(text);
   }

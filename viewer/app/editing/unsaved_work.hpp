@@ -54,16 +54,17 @@ class UnsavedWork {
   void note() { stale_ = true; }
   /// To be called once per picture, with the changes in effect: after note() they are applied to
   /// the file's text.
-  void update(Session& session, const std::vector<DeedEdits>& deeds, double dt);
+  void update(Session& session, const std::vector<UndoStepEdits>& undo_steps, double dt);
   /// Collects the newest changes at once, before another scene is shown. `own_thread`: whether the
   /// session has one.
-  void finish(Session& session, const std::vector<DeedEdits>& deeds, bool own_thread);
+  void finish(Session& session, const std::vector<UndoStepEdits>& undo_steps, bool own_thread);
   /// The text of the scene after each of these changes, which come after those that are `too_old`
   /// to be undone; empty if the session does not answer soon. A change that the file cannot
   /// represent leaves the text as it is.
   std::vector<std::string> texts_after(const std::string& start, Session& session,
-                                       const std::vector<DeedEdits>& too_old,
-                                       const std::vector<DeedEdits>& deeds, bool own_thread) const;
+                                       const std::vector<UndoStepEdits>& too_old,
+                                       const std::vector<UndoStepEdits>& undo_steps,
+                                       bool own_thread) const;
   /// To be called when the scene was saved: this is its file from now on.
   void saved(const SceneFile& file);
   /// Discards kept work.

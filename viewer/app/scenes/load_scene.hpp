@@ -12,7 +12,7 @@
 namespace tumble {
 
 /// Which replay to play with a scene (scene_replay).
-struct ReplayWish {
+struct ReplayRequest {
   std::string file;   ///< this file; empty: the replay of the scene's pack, if any
   bool none = false;  ///< play none, not even that of the pack
 };
@@ -25,7 +25,7 @@ struct SceneRequest {
   std::string stepper;                 ///< replaces the scene's stepper; empty: the scene's
   int threads = 0;                     ///< 0: one per core
   LogSink log;
-  ReplayWish replay;
+  ReplayRequest replay;
 };
 
 /// A scene and its world, at tick 0 with everything created.

@@ -32,7 +32,7 @@ Status ReplayPlayer::follow(World& world, bool anew) {
   const size_t before = done();
   const auto course = replay_.follow(world);
   if (!course) return course.error();
-  if (done() != before) ++deeds_;
+  if (done() != before) ++undo_steps_;
   seen_tick_ = world.tick();
   seen_done_ = done();
   course_ = *course;
@@ -50,12 +50,12 @@ Status ReplayPlayer::verdict() const {
                source_, "record it anew with this version of Tumble"};
 }
 
-void declare_replay(Options& options, ReplayWish& wish) {
+void declare_replay(Options& options, ReplayRequest& wanted) {
   const Option file = options.value(
-      "--play", wish.file,
+      "--play", wanted.file,
       "a replay of this scene, as `tumble simulate --replay` writes them, is played; a pack's own "
       "is played without being asked for, unless another is given here");
-  options.flag("--no-replay", wish.none, "the replay of a pack is not played").excludes(file);
+  options.flag("--no-replay", wanted.none, "the replay of a pack is not played").excludes(file);
 }
 
 Result<std::shared_ptr<ReplayPlayer>> replay_of(const SceneRequest& request,

@@ -26,7 +26,7 @@ class ReplayPlayer {
   /// Progress of the replay; callable from any thread.
   Course course() const { return course_; }
   /// Number of commands executed; callable from any thread.
-  uint64_t deeds() const { return deeds_; }
+  uint64_t undo_steps() const { return undo_steps_; }
   /// The progress, if it has changed since the last call; for one thread only.
   std::optional<Course> take_news();
   /// An error if the replay ended in a state other than the recorded one.
@@ -40,7 +40,7 @@ class ReplayPlayer {
   Replay replay_;
   std::string source_;
   std::atomic<Course> course_ = Course::goes_on;
-  std::atomic<uint64_t> deeds_ = 0;
+  std::atomic<uint64_t> undo_steps_ = 0;
   Course told_ = Course::goes_on;
   /// Tick and number of commands at the last check whether the world is still the replay's, so that
   /// the expensive comparison of all shapes is not repeated for every query.
@@ -49,7 +49,7 @@ class ReplayPlayer {
 };
 
 /// Declares --play and --no-replay.
-void declare_replay(Options& options, ReplayWish& wish);
+void declare_replay(Options& options, ReplayRequest& wanted);
 
 /// The replay to play with a loaded scene: the file that the request names, otherwise the replay of
 /// its pack; null if there is none, or none is wanted. The commands of the first tick have been

@@ -40,8 +40,8 @@ Result<SceneRequest> as_file(const ReplaySaver::Beginning& beginning) {
 
 }  // namespace
 
-void ReplaySaver::save(Session& session, Wish wish) {
-  wish_ = std::move(wish);
+void ReplaySaver::save(Session& session, Request request) {
+  request_ = std::move(request);
   of_job_ = beginning_;
   said_ = session.call([](World& world) {
     return Said{save_replay(world), world.tick(), world.time()};
@@ -49,20 +49,23 @@ void ReplaySaver::save(Session& session, Wish wish) {
 }
 
 void ReplaySaver::begin_job() {
-  job_ = std::async(wish_.beside ? std::launch::async : std::launch::deferred,
-                    [stop = &stop_, wish = wish_, beginning = of_job_, said = said_.get()] {
+  job_ = std::async(request_.beside ? std::launch::async : std::launch::deferred,
+                    [stop = &stop_, request = request_, beginning = of_job_, said = said_.get()] {
                       const Stoppable scope(stop);
-                      return write(wish, beginning, said);
+                      return write(request, beginning, said);
                     });
 }
 
-Result<ReplaySaver::Saved> ReplaySaver::write(const Wish& wish, const Beginning& beginning,
+Result<ReplaySaver::Saved> ReplaySaver::write(const Request& request, const Beginning& beginning,
                                               const Said& said) {
-  if (Status made = make_folder(wish.folder); !made) return made.error();
-  const std::string stem = fmt::format("tumble-{}-replay", wish.name.empty() ? "scene" : wish.name);
-  Saved saved{
-      free_name(wish.folder, stem, wish.packed ? ".tumble" : ".bin"), said.ticks, said.seconds, {}};
-  if (!wish.packed) {
+  if (Status made = make_folder(request.folder); !made) return made.error();
+  const std::string stem =
+      fmt::format("tumble-{}-replay", request.name.empty() ? "scene" : request.name);
+  Saved saved{free_name(request.folder, stem, request.packed ? ".tumble" : ".bin"),
+              said.ticks,
+              said.seconds,
+              {}};
+  if (!request.packed) {
     saved.needs = beginning.scene.overrides;
     if (Status done = write_file(saved.file, said.replay); !done) return done.error();
     return saved;
@@ -86,11 +89,11 @@ std::optional<Result<ReplaySaver::Saved>> ReplaySaver::take() {
 void ReplaySaver::finish(Session& session) {
   if (!busy()) return;
   if (said_.valid()) {
-    if (!wish_.beside) (void)session.advance(0);
+    if (!request_.beside) (void)session.advance(0);
     said_.wait();
     begin_job();
   }
-  if (wish_.packed) stop_.request();
+  if (request_.packed) stop_.request();
   (void)job_.get();
   stop_.clear();
 }

@@ -30,7 +30,7 @@ class ReplaySaver {
   /// Another world is shown from now on; a save under way continues.
   void open(Beginning beginning) { beginning_ = std::move(beginning); }
 
-  struct Wish {
+  struct Request {
     std::filesystem::path folder;
     std::string name;     ///< of the scene, from which the file's name is made
     bool packed = false;  ///< in a pack with the scene
@@ -43,7 +43,7 @@ class ReplaySaver {
     /// Parameter values ("path=value") that the scene must be given for this replay.
     std::vector<std::string> needs;
   };
-  void save(Session& session, Wish wish);
+  void save(Session& session, Request request);
   /// Whether a save is under way.
   bool busy() const { return said_.valid() || job_.valid(); }
   /// The outcome of a save, once.
@@ -58,12 +58,12 @@ class ReplaySaver {
     uint64_t ticks = 0;
     double seconds = 0;
   };
-  static Result<Saved> write(const Wish& wish, const Beginning& beginning, const Said& said);
+  static Result<Saved> write(const Request& request, const Beginning& beginning, const Said& said);
   void begin_job();
 
   StopFlag stop_;
   Beginning beginning_, of_job_;
-  Wish wish_;
+  Request request_;
   std::future<Said> said_;
   std::future<Result<Saved>> job_;
 };

@@ -70,7 +70,7 @@ void Application::perform(Action action) {
       ui_.search_opened = ui_.shows(PanelId::scenes);
       return;
     case Action::new_scene:
-      return open(SceneWish{new_scene_file(), {}, {}});
+      return open(OpenRequest{new_scene_file(), {}, {}});
     case Action::save_scene:
       return save_scene();
     case Action::undo:
@@ -102,7 +102,7 @@ void Application::perform(Action action) {
         return ui_.toast(ToastKind::info, fmt::format("No snapshot yet: {} keeps one",
                                                       shortcut_of(Action::save_snapshot)));
       end_drag();
-      deeds_.jump(false);
+      undo_steps_.jump(false);
       return world_.restore_snapshot();
     case Action::screenshot:
       return screenshots_.want(true);
@@ -409,14 +409,14 @@ void Application::restart(bool as_scene) {
   if (as_scene && !follows_replay() && !changed_settings(now, of_scene).empty())
     begin_edit("Restart with the scene's settings")->push_back(ChangedSettings{now, of_scene});
   instruments_.history.clear();
-  const std::vector<std::string> changed =
-      settings_.restart(session(), as_scene,
-                        [deeds = deeds_.edits().file_edits(), parts = tools_.parts.opened(),
-                         live = tools_.parts.live(), refusal = tools_.refusal](World& world) {
-                          do_at_start(world, deeds, parts, live, refusal);
-                        });
-  deeds_.jump(!changed.empty());
-  deeds_.edits().begin_course();
+  const std::vector<std::string> changed = settings_.restart(
+      session(), as_scene,
+      [undo_steps = undo_steps_.edits().file_edits(), parts = tools_.parts.opened(),
+       live = tools_.parts.live(), refusal = tools_.refusal](World& world) {
+        do_at_start(world, undo_steps, parts, live, refusal);
+      });
+  undo_steps_.jump(!changed.empty());
+  undo_steps_.edits().begin_course();
   if (changed.empty()) return;
   const std::string names = fmt::format("{}", fmt::join(changed, ", "));
   if (as_scene)
@@ -439,13 +439,13 @@ WorldChoice Application::own_choice() const {
 /// Another choice for an existing world B is an undo step beside world A.
 void Application::compare(const WorldChoice& wanted) {
   if (const WorldComparison* now = second_.comparison())
-    deeds_.begin_beside("Change what is chosen for B", in_gesture(),
-                        [this, other = now->choice]() mutable {
-                          const WorldComparison* shown = second_.comparison();
-                          if (!shown) return;
-                          const WorldChoice those = std::exchange(other, shown->choice);
-                          begin_comparison(those);
-                        });
+    undo_steps_.begin_beside("Change what is chosen for B", in_gesture(),
+                             [this, other = now->choice]() mutable {
+                               const WorldComparison* shown = second_.comparison();
+                               if (!shown) return;
+                               const WorldChoice those = std::exchange(other, shown->choice);
+                               begin_comparison(those);
+                             });
   begin_comparison(wanted);
 }
 
@@ -459,16 +459,16 @@ void Application::begin_comparison(const WorldChoice& wanted) {
   if (std::ranges::none_of(different, is_number))
     return second_.begin(session(), wanted, scene_.trail);
   if (recording_forbids("comparing from the start")) return;
-  deeds_.finish(session(), options_.own_thread);
-  SceneWish wish = scene_.wish;
-  if (deeds_.unsaved().any()) wish.text = deeds_.unsaved().text();
-  for (std::string& one : overrides_of(different)) wish.overrides.push_back(std::move(one));
-  if (options_.own_thread) return second_.open(options_.open, std::move(wish), wanted);
-  show_second({wanted, options_.open(wish)});
+  undo_steps_.finish(session(), options_.own_thread);
+  OpenRequest wanted = scene_.request;
+  if (undo_steps_.unsaved().any()) wanted.text = undo_steps_.unsaved().text();
+  for (std::string& one : overrides_of(different)) wanted.overrides.push_back(std::move(one));
+  if (options_.own_thread) return second_.open(options_.open, std::move(wanted), wanted);
+  show_second({wanted, options_.open(wanted)});
 }
 
 /// Both worlds begin at the start of the scene.
-void Application::show_second(ComparisonDesk::Opened opened) {
+void Application::show_second(ComparisonController::Opened opened) {
   if (!opened.scene)
     return ui_.toast(ToastKind::error, "The scene cannot be opened with the numbers of B",
                      {opened.scene.error().text()});

@@ -26,7 +26,7 @@ Application::Application(ApplicationOptions options, Canvas canvas)
     : options_(std::move(options)),
       canvas_(std::move(canvas)),
       world_(options_.own_thread),
-      deeds_(options_.unsaved_folder),
+      undo_steps_(options_.unsaved_folder),
       marks_(options_.preferences_file.empty()
                  ? std::filesystem::path()
                  : options_.preferences_file.parent_path() / "bookmarks.json"),
@@ -45,7 +45,7 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
   if (!canvas) return canvas.error();
   const bool hints = options.hints;
   std::unique_ptr<Application> app(new Application(std::move(options), std::move(*canvas)));
-  if (scene.file.unnamed) scene.file.path = app->deeds_.unsaved().free_name();
+  if (scene.file.unnamed) scene.file.path = app->undo_steps_.unsaved().free_name();
   app->show(std::move(scene));
   if (const auto& faults = app->options_.faults; !faults.empty())
     app->ui_.toast(ToastKind::warning, "Of your files for keys and window", faults);
@@ -57,14 +57,14 @@ Result<std::unique_ptr<Application>> Application::create(Device& device, Applica
 
 void Application::show(OpenedScene scene, bool goes_on) {
   // Includes the newest changes before the application ends.
-  if (world_.any()) deeds_.finish(session(), options_.own_thread);
+  if (world_.any()) undo_steps_.finish(session(), options_.own_thread);
   if (recording()) toggle_recording();
   end_drag();
-  hand_.forget();
+  mouse_pull_.forget();
   pointer_.cancel();
   selection_.clear();
   second_.forget();
-  deeds_.forget();
+  undo_steps_.forget();
   removal_trial_.reset();
   tools_.open(scene.parts, scene.live_parts);
   ui_.part = {};
@@ -82,7 +82,7 @@ void Application::show(OpenedScene scene, bool goes_on) {
   camera_.open(scene.view, *scene.world->frame());
   TickWatchers watchers = {instruments_.events};
   if (scene.assertions) watchers.push_back(scene.assertions);
-  if (scene.lesson && scene_.lesson && scene.wish.scene == scene_.wish.scene)
+  if (scene.lesson && scene_.lesson && scene.request.scene == scene_.request.scene)
     scene.lesson->go_on_from(*scene_.lesson);
   if (scene.lesson) watchers.push_back(scene.lesson);
   ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
@@ -92,7 +92,7 @@ void Application::show(OpenedScene scene, bool goes_on) {
   if (!scene.warnings.empty()) ui_.toast(ToastKind::warning, "The scene says:", scene.warnings);
   scene_file_.open(scene.file);
   replay_.open(scene, options_.threads);
-  deeds_.unsaved().open(scene.file, goes_on);
+  undo_steps_.unsaved().open(scene.file, goes_on);
   question_.forget();
   ui_.shows(PanelId::save) = false;
   scene_ = std::move(scene);
@@ -104,7 +104,7 @@ void Application::show(OpenedScene scene, bool goes_on) {
 void Application::finish() {
   if (recording()) toggle_recording();
   replay_.saver().finish(session());
-  deeds_.finish(session(), options_.own_thread);
+  undo_steps_.finish(session(), options_.own_thread);
   keep_marks(true);
 }
 
@@ -117,7 +117,7 @@ void Application::look_at_view() {
   canvas_.see(world_.frame(), news != ahead);
   if (news != goes_on) {
     end_drag();
-    hand_.let_go_of_the_past(session());
+    mouse_pull_.let_go_of_the_past(session());
     settings_.fetch(session(), follows_replay());
   }
   if (const auto copies = tools_.duplicator.take(world_.frame()); !copies.empty()) {
@@ -126,10 +126,10 @@ void Application::look_at_view() {
     // While building, the inspector would cover the place of the next click.
     if (!ui_.building) open_inspector();
   }
-  deeds_.see(world_.frame().tick, news != goes_on);
+  undo_steps_.see(world_.frame().tick, news != goes_on);
   marks_.clock().see(world_.frame().tick, world_.frame().time, world_.frame().rate.tick());
   instruments_.history.add(world_.frame());
-  instruments_.measures.see(world_.frame(), world_.frame().tick < deeds_.newest_tick());
+  instruments_.measures.see(world_.frame(), world_.frame().tick < undo_steps_.newest_tick());
   // The ticks between were not seen.
   if (news == ahead || (session().paused() && world_.frame().tick > seen_last + 1))
     instruments_.measures.want_past();
@@ -146,7 +146,7 @@ void Application::look_at_view() {
   instruments_.microscope_probe.update(session(), world_.view().to,
                                        recording() ? std::nullopt : looked_at);
   forget_what_is_gone();
-  if (news != goes_on) deeds_.select_as_then(world_.frame(), selection_);
+  if (news != goes_on) undo_steps_.select_as_then(world_.frame(), selection_);
   tools_.selected_def.update(session(), world_.frame(), selection_.main());
   take_mesh_modes();
   show_notices();
@@ -211,8 +211,8 @@ UiModel Application::model() const {
   m.tick_seconds = counters.tick_seconds;
   m.dropped_seconds = counters.dropped_seconds;
   m.first_tick = counters.first_tick;
-  m.last_tick = std::max(deeds_.newest_tick(), m.frame->tick);
-  m.deed_ticks = deeds_.edits().ticks_of_this_course();
+  m.last_tick = std::max(undo_steps_.newest_tick(), m.frame->tick);
+  m.undo_step_ticks = undo_steps_.edits().ticks_of_this_course();
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
   m.way_to = counters.way_to;
@@ -290,7 +290,7 @@ Status Application::frame(std::span<const InputEvent> input, double dt, const Pi
 
   keep_hints();
   look_at_description();
-  tools_.parts.update(session(), deeds_.edits().file_edits());
+  tools_.parts.update(session(), undo_steps_.edits().file_edits());
   look_at_files(dt);
   scene_file_.update(ui_.save_file);
   if (const auto* mesh = std::get_if<NewMesh>(&ui_.build.what); mesh && ui_.building) {

@@ -1,27 +1,27 @@
 #pragma once
-#include "viewer/app/editing/description_desk.hpp"
+#include "viewer/app/editing/description_controller.hpp"
 #include "viewer/app/editing/opening_trial.hpp"
 #include "viewer/app/editing/removal.hpp"
 #include "viewer/app/session/shown_settings.hpp"
 #include "viewer/app/session/shown_world.hpp"
 #include "viewer/app/window/canvas.hpp"
-#include "viewer/app/window/comparison_desk.hpp"
-#include "viewer/app/window/deed_desk.hpp"
+#include "viewer/app/window/comparison_controller.hpp"
 #include "viewer/app/window/editing_tools.hpp"
-#include "viewer/app/window/hand.hpp"
 #include "viewer/app/window/instruments.hpp"
 #include "viewer/app/window/lent_overlays.hpp"
-#include "viewer/app/window/marks_desk.hpp"
+#include "viewer/app/window/marks_controller.hpp"
+#include "viewer/app/window/mouse_pull.hpp"
 #include "viewer/app/window/picture_layout.hpp"
 #include "viewer/app/window/pointer.hpp"
 #include "viewer/app/window/preferences.hpp"
-#include "viewer/app/window/question_desk.hpp"
-#include "viewer/app/window/replay_desk.hpp"
+#include "viewer/app/window/question_controller.hpp"
+#include "viewer/app/window/replay_controller.hpp"
 #include "viewer/app/window/scene_camera.hpp"
-#include "viewer/app/window/scene_file_desk.hpp"
+#include "viewer/app/window/scene_file_controller.hpp"
 #include "viewer/app/window/scene_opening.hpp"
 #include "viewer/app/window/screenshots.hpp"
 #include "viewer/app/window/thumbnails.hpp"
+#include "viewer/app/window/undo_manager.hpp"
 #include "viewer/interact/paced_input.hpp"
 #include "viewer/interact/scripted_input.hpp"
 #include "viewer/interact/selection.hpp"
@@ -92,8 +92,8 @@ class Application {
 
   /// Opens a scene in the background, as if chosen in the list. The old one is shown until the new
   /// one is ready; if it cannot be opened, the old one stays and the faults are listed.
-  void open(const std::string& name_or_path) { open(SceneWish{name_or_path, {}, {}}); }
-  void open(SceneWish wish);
+  void open(const std::string& name_or_path) { open(OpenRequest{name_or_path, {}, {}}); }
+  void open(OpenRequest wanted);
   void perform(Action action);
 
   // -- for scripts, tests and the status file -----------------------------------------------------
@@ -130,8 +130,9 @@ class Application {
  private:
   Application(ApplicationOptions options, Canvas canvas);
   void show(OpenedScene scene, bool goes_on = false);
-  void open_for(SceneOpening::Cause cause, SceneWish wish);
-  std::vector<ChoiceHistory::Step> deeds_as_choices(const SceneWish& start, std::string text);
+  void open_for(SceneOpening::Cause cause, OpenRequest wanted);
+  std::vector<ChoiceHistory::Step> undo_steps_as_choices(const OpenRequest& start,
+                                                         std::string text);
   void finish_opening(SceneOpening::Opened done);
   /// Selection and focus by name, to be found again in a scene that is opened anew.
   struct LookedAt {
@@ -150,7 +151,7 @@ class Application {
   WorldChoice own_choice() const;
   void compare(const WorldChoice& wanted);
   void begin_comparison(const WorldChoice& wanted);
-  void show_second(ComparisonDesk::Opened opened);
+  void show_second(ComparisonController::Opened opened);
   std::vector<InputEvent> in_time_for_search(std::span<const InputEvent> events);
   bool give_up_gesture();
   void close_something();
@@ -159,7 +160,7 @@ class Application {
   void apply(const PointerEffects& effects);
   void apply(const UiRequest& request);
   std::string name_of(BodyId id) const;
-  DeedEdits begin_edit(std::string what, bool by_gesture = false);
+  UndoStepEdits begin_edit(std::string what, bool by_gesture = false);
   Removal begin_removal(std::string what);
   void save_scene();
   void write_scene(const std::string& file);
@@ -209,8 +210,8 @@ class Application {
   void build_at(double x, double y, const std::optional<Pick>& hit);
   void change_parameter(const ChangeParameter& change);
   void choose(const std::vector<std::string>& overrides, std::string what, uint64_t tick);
-  void choose(SceneWish after, std::string what, uint64_t tick);
-  SceneWish wish_of_now();
+  void choose(OpenRequest after, std::string what, uint64_t tick);
+  OpenRequest request_of_now();
   bool go_back_on(std::optional<ChoiceHistory::Step> choice);
   void shoot(const Ray& ray);
   void end_drag();
@@ -259,7 +260,7 @@ class Application {
   void leave_loop();
   bool recording_forbids(const std::string& what);
   void add_camera_key();
-  void follow_from_key(const FollowFromKey& wish);
+  void follow_from_key(const FollowFromKey& wanted);
   std::optional<Vec3> place_of_body(const std::string& name) const;
   void toggle_flight();
   void fly();
@@ -281,19 +282,19 @@ class Application {
   ShownWorld world_;
   OpenedScene scene_;  ///< without its world, which the session has
   SceneOpening opening_;
-  SceneFileDesk scene_file_;
+  SceneFileController scene_file_;
   ShownSettings settings_;
   WorldSettings settings_before_;  ///< settings before the newest change of them
-  ReplayDesk replay_;
-  ComparisonDesk second_;
+  ReplayController replay_;
+  ComparisonController second_;
 
-  DeedDesk deeds_;
-  DescriptionDesk description_;
+  UndoManager undo_steps_;
+  DescriptionController description_;
   Selection selection_;
   EditingTools tools_;
   std::unique_ptr<OpeningTrial> removal_trial_;  ///< null: nothing was deleted, or all is known
   Instruments instruments_;
-  MarksDesk marks_;
+  MarksController marks_;
   /// Overlays switched on by the lesson's page, and those switched on for building.
   LentOverlays lesson_overlays_, building_overlays_;
 
@@ -306,9 +307,9 @@ class Application {
 
   UiHost host_;
   UiState ui_;
-  QuestionDesk question_;
+  QuestionController question_;
   Pointer pointer_;
-  Hand hand_;
+  MousePull mouse_pull_;
   PacedInput paced_input_;
   std::vector<InputEvent> early_text_;  ///< typed before the search field had the keyboard
   bool searched_ = false;               ///< a search for a quantity was active

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-std::string deed_of(HandleKind kind) {
+std::string undo_step_of(HandleKind kind) {
   switch (kind) {
     case HandleKind::turn:
       return "Turn ";
@@ -84,15 +84,15 @@ void Application::arrange_to(double x, double y) {
            1e4, tools_.arranger.bodies());
   const auto way = tools_.arranger.drag(ui_.handles, view, x, y, snap, hit);
   if (!way) return;
-  const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names(), true);
+  const UndoStepEdits edits = begin_edit(undo_step_of(ui_.handles.kind) + selected_names(), true);
   tools_.arranger.apply(session(), *way, edits, tools_.refusal);
 }
 
 /// While the simulation runs, gravity would move the dragged bodies between two moves of the
 /// pointer.
 void Application::hold_arranged() {
-  if (session().paused() || !tools_.arranger.last() || deeds_.edits().empty()) return;
-  tools_.arranger.apply(session(), *tools_.arranger.last(), deeds_.edits().newest(),
+  if (session().paused() || !tools_.arranger.last() || undo_steps_.edits().empty()) return;
+  tools_.arranger.apply(session(), *tools_.arranger.last(), undo_steps_.edits().newest(),
                         tools_.refusal);
 }
 
@@ -103,7 +103,7 @@ void Application::displace_selected(const Displacement& way) {
   about.pivot = frame->x;
   about.shift = frame->direction(way.shift);
   about.turn = frame->q * way.turn * frame->q.conjugate();
-  const DeedEdits edits = begin_edit(deed_of(ui_.handles.kind) + selected_names());
+  const UndoStepEdits edits = begin_edit(undo_step_of(ui_.handles.kind) + selected_names());
   Arranger::apply_once(session(), selection_, about, edits, tools_.refusal);
 }
 
@@ -131,7 +131,7 @@ void Application::paste() {
       hit ? hit->x_world
           : ray.origin + (view.camera.target - view.camera.eye).norm() * ray.direction.normalized();
   if (hit) place.normal = hit->normal;
-  const DeedEdits edits = begin_edit(
+  const UndoStepEdits edits = begin_edit(
       tools_.clipboard.count() == 1 ? "Paste a body"
                                     : fmt::format("Paste {} bodies", tools_.clipboard.count()));
   tools_.duplicator.await(

@@ -17,8 +17,8 @@
 namespace tumble {
 namespace {
 
-/// Whether a deed to the running world says the same in the file as was wanted there: an expression
-/// that was typed, say, is more than the number that the world gets.
+/// Whether an undo step to the running world says the same in the file as was wanted there: an
+/// expression that was typed, say, is more than the number that the world gets.
 bool says_same(const std::string& text, const std::filesystem::path& file, const SceneEdit& edit,
                const std::string& wanted) {
   const auto saved = save_edits(text, file.string(), std::span(&edit, 1));
@@ -97,7 +97,7 @@ void keep_up_choices(std::vector<std::string>& chosen, const EditDescription& ed
 }  // namespace
 
 std::string Application::described_text() {
-  return deeds_.unsaved().any() ? deeds_.unsaved().text() : scene_.file.text;
+  return undo_steps_.unsaved().any() ? undo_steps_.unsaved().text() : scene_.file.text;
 }
 
 /// Called once a picture.
@@ -107,16 +107,17 @@ void Application::look_at_description() {
 
 void Application::edit_description(const EditDescription& edit) {
   if (recording_forbids("changing the scene")) return;
-  SceneWish after = wish_of_now();
+  OpenRequest after = request_of_now();
   const std::string now = described_text();
   auto done = description_.with(now, scene_.file.path, edit);
   if (!done) return ui_.toast(ToastKind::warning, "This is not possible", {done.error().message});
   const bool alone = !description_.has_draft();
   if (done->text == now && alone) return;
   ui_.described = done->place;
-  const size_t deeds = deeds_.edits().deeds().size();
-  if (!done->faults.empty()) return description_.keep(edit, std::move(done->faults), false, deeds);
-  const std::string what = deed_of(edit);
+  const size_t undo_steps = undo_steps_.edits().undo_steps().size();
+  if (!done->faults.empty())
+    return description_.keep(edit, std::move(done->faults), false, undo_steps);
+  const std::string what = undo_step_of(edit);
   if (alone && describe_live(now, done->text, edit.path, what)) return;
   for (const EditDescription& earlier : description_.draft())
     keep_up_choices(after.overrides, earlier);
@@ -128,7 +129,7 @@ void Application::edit_description(const EditDescription& edit) {
     renaming_ = {edit.path[1].key, edit.value};
   described_along_.clear();
   for (const TakenAlong& one : done->along) described_along_.push_back(one.words());
-  description_.keep(edit, {}, true, deeds);
+  description_.keep(edit, {}, true, undo_steps);
   describing_ = true;
   choose(std::move(after), what, world_.frame().tick);
 }
@@ -142,8 +143,8 @@ bool Application::describe_live(const std::string& before, const std::string& af
   constexpr std::string_view parts[] = {"emitters", "sensors", "forces", "particles"};
   if (!settings && (path.size() < 2 || std::ranges::find(parts, list) == std::end(parts)))
     return false;
-  const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.wish.overrides});
-  const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.wish.overrides});
+  const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.request.overrides});
+  const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.request.overrides});
   if (!old.ok() || !now.ok()) return false;
   if (settings) {
     const ChangedSettings change{old.scene.settings, now.scene.settings};
@@ -168,8 +169,8 @@ bool Application::describe_live(const std::string& before, const std::string& af
 bool Application::describe_body_live(const std::string& before, const std::string& after,
                                      const ScenePath& path, const std::string& what) {
   if (path.size() < 3 || path[2].key == "drawn") return false;
-  const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.wish.overrides});
-  const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.wish.overrides});
+  const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.request.overrides});
+  const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.request.overrides});
   if (!old.ok() || !now.ok()) return false;
   const std::string& name = path[1].key;
   const auto was = described_body(old.scene, name), is = described_body(now.scene, name);

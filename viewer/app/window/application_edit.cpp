@@ -26,12 +26,12 @@ std::string Application::name_of(BodyId id) const {
 
 /// To be called before every change that the user makes. What a widget requests in every picture
 /// while it is held, or while its text is being typed, is one undo step.
-DeedEdits Application::begin_edit(std::string what, bool by_gesture) {
-  deeds_.unsaved().note();
-  deeds_.choices().forget_taken_back();
+UndoStepEdits Application::begin_edit(std::string what, bool by_gesture) {
+  undo_steps_.unsaved().note();
+  undo_steps_.choices().forget_taken_back();
   leave_loop();
-  return deeds_.begin(session(), std::move(what), by_gesture && in_gesture(), world_.frame().tick,
-                      selection_.all());
+  return undo_steps_.begin(session(), std::move(what), by_gesture && in_gesture(),
+                           world_.frame().tick, selection_.all());
 }
 
 bool Application::in_gesture() const {
@@ -41,11 +41,11 @@ bool Application::in_gesture() const {
 void Application::take_back() {
   end_drag();
   if (description_.opening()) return;  // it is known soon whether that makes a scene
-  if (description_.newer_than(deeds_.edits().deeds().size())) return take_back_draft();
+  if (description_.newer_than(undo_steps_.edits().undo_steps().size())) return take_back_draft();
   tools_.parts.note();
-  const auto back = deeds_.take_back(session(), selection_.all());
+  const auto back = undo_steps_.take_back(session(), selection_.all());
   if (!back) {
-    if (!go_back_on(deeds_.choices().back()))
+    if (!go_back_on(undo_steps_.choices().back()))
       ui_.toast(ToastKind::info, "There is nothing to take back");
     return;
   }
@@ -66,9 +66,9 @@ void Application::do_again() {
   end_drag();
   leave_loop();
   tools_.parts.note();
-  const auto back = deeds_.do_again(session(), selection_.all());
+  const auto back = undo_steps_.do_again(session(), selection_.all());
   if (!back) {
-    if (!go_back_on(deeds_.choices().again()))
+    if (!go_back_on(undo_steps_.choices().again()))
       ui_.toast(ToastKind::info, "There is nothing to do again");
     return;
   }
@@ -83,8 +83,9 @@ std::string Application::selected_names() const {
 
 /// Begins an undo step that removes something on which other parts may depend.
 Removal Application::begin_removal(std::string what) {
-  const DeedEdits edits = begin_edit(std::move(what));
-  return Removal(scene_.file, deeds_.edits().file_edits(), edits, tools_.parts, tools_.refusal);
+  const UndoStepEdits edits = begin_edit(std::move(what));
+  return Removal(scene_.file, undo_steps_.edits().file_edits(), edits, tools_.parts,
+                 tools_.refusal);
 }
 
 void Application::delete_selected() {
@@ -116,7 +117,7 @@ void Application::duplicate_selected() {
   const int axis = std::abs(right.x()) >= std::abs(right.z()) ? 0 : 2;
   Vec3 aside = Vec3::Zero();
   aside[axis] = std::copysign(copy_distance * bounds.extent()[axis], right[axis]);
-  const DeedEdits edits = begin_edit("Copy " + selected_names());
+  const UndoStepEdits edits = begin_edit("Copy " + selected_names());
   tools_.duplicator.copy(session(), selection_, aside, session().paused(), edits);
   tools_.parts.name_springs(session(), edits);
   tools_.parts.note();
@@ -125,12 +126,12 @@ void Application::duplicate_selected() {
 void Application::change_settings(const WorldSettings& wanted) {
   const std::vector<std::string> names = changed_settings(settings_.value(), wanted);
   const std::string what = fmt::format("Change {}", fmt::join(names, ", "));
-  const bool goes_on = deeds_.goes_on(what, in_gesture());
+  const bool goes_on = undo_steps_.goes_on(what, in_gesture());
   if (!goes_on) settings_before_ = settings_.value();
-  const DeedEdits edits = begin_edit(what, true);
+  const UndoStepEdits edits = begin_edit(what, true);
   if (goes_on && changed_settings(settings_before_, wanted).empty()) {
     // A typed number was cancelled by Esc, or a slider set back.
-    deeds_.drop_newest();
+    undo_steps_.drop_newest();
   }
   session().post([edits, wanted](World& world) {
     if (edits->empty()) edits->push_back(ChangedSettings{world.settings(), wanted});
@@ -184,7 +185,7 @@ void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
     made = tools_.builder.click(ui_.build, world_.frame(), ray, hit, view);
   }
   if (made) {
-    const DeedEdits edits = begin_edit(made->what);
+    const UndoStepEdits edits = begin_edit(made->what);
     using Bodies = std::vector<BodyId>;
     tools_.duplicator.await(session().call(
         [make = made->make, edits, refusal = tools_.refusal](World& world) -> Bodies {
@@ -215,7 +216,7 @@ void Application::edit_body(const EditBody& edit) {
     edit.change(after);
     if (after.name != def->name) return rename_body(def->name, after.name);
   }
-  const DeedEdits edits = begin_edit(edit.what, true);
+  const UndoStepEdits edits = begin_edit(edit.what, true);
   tools_.selected_def.expect(edit);
   session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const auto before = world.body_def(edit.id);
@@ -237,8 +238,8 @@ void Application::take_mesh_modes() {
   if (!made->parts)
     return ui_.toast(ToastKind::warning, "This is not possible",
                      {with_cure_in_window(made->parts.error()).text()});
-  edit_body({made->wish.id, made->wish.what,
-             [group = made->wish.group, mesh = made->wish.source->mesh,
+  edit_body({made->request.id, made->request.what,
+             [group = made->request.group, mesh = made->request.source->mesh,
               parts = *made->parts](BodyDef& def) {
                // Only if the body still has the mesh from which the shapes were computed.
                const auto groups = shape_groups(def);
@@ -246,11 +247,12 @@ void Application::take_mesh_modes() {
                const auto source = source_of(def, groups[group]);
                if (source && source->mesh == mesh) replace_group(def, group, parts);
              }});
-  if (!made->parts->note.empty()) ui_.toast(ToastKind::info, made->wish.what, {made->parts->note});
+  if (!made->parts->note.empty())
+    ui_.toast(ToastKind::info, made->request.what, {made->parts->note});
 }
 
 void Application::edit_joint(const EditJoint& edit) {
-  const DeedEdits edits = begin_edit(edit.what, true);
+  const UndoStepEdits edits = begin_edit(edit.what, true);
   tools_.selected_def.expect(edit);
   session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const JointDef* now = world.joint(edit.id);

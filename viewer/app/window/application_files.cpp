@@ -33,26 +33,27 @@ void Application::browse(const std::string& folder) {
   if (!folder.empty()) browsed_ = look_through(folder);
 }
 
-void Application::open(SceneWish wish) {
-  if (!description_.has_draft()) return open_for({}, std::move(wish));
+void Application::open(OpenRequest wanted) {
+  if (!description_.has_draft()) return open_for({}, std::move(wanted));
   question_.ask({{"Changes of this scene are not in effect yet",
                   {"They are not kept when another scene is opened."},
                   {{"leave", "Open without them"}, {"stay", "Stay"}}},
-                 {[this, wish = std::move(wish)] {
+                 {[this, wanted = std::move(wanted)] {
                     description_.leave_draft();
-                    open_for({}, wish);
+                    open_for({}, wanted);
                   },
                   [] {}}},
                 ui_);
 }
 
-void Application::open_for(SceneOpening::Cause cause, SceneWish wish) {
+void Application::open_for(SceneOpening::Cause cause, OpenRequest wanted) {
   if (!std::exchange(describing_, false) && description_.opening())
     description_.refuse(
         {"Something else was opened meanwhile: change it once more, or take it back."});
-  if (options_.own_thread) return opening_.start(options_.open, std::move(wish), std::move(cause));
-  auto scene = options_.open(wish);
-  finish_opening({std::move(wish), std::move(scene), std::move(cause)});
+  if (options_.own_thread)
+    return opening_.start(options_.open, std::move(wanted), std::move(cause));
+  auto scene = options_.open(wanted);
+  finish_opening({std::move(wanted), std::move(scene), std::move(cause)});
 }
 
 /// Finds things by name, since the world is another one.
@@ -80,24 +81,26 @@ Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const 
 
 /// Keeps the undo history of choices for the scene that was opened.
 void Application::keep_choices(SceneOpening::Cause& cause) {
-  const bool lost = cause.reloads && (!deeds_.choices().empty() || cause.deeds_lost);
+  const bool lost = cause.reloads && (!undo_steps_.choices().empty() || cause.undo_steps_lost);
   auto& choice = cause.choice;
-  if (!choice) deeds_.choices().forget();
-  for (ChoiceHistory::Step& deed : cause.deeds) deeds_.choices().gone(std::move(deed));
+  if (!choice) undo_steps_.choices().forget();
+  for (ChoiceHistory::Step& undo_step : cause.undo_steps)
+    undo_steps_.choices().gone(std::move(undo_step));
   if (choice) {
     if (choice->way != ChoiceHistory::Way::anew)
       ui_.toast(ToastKind::info,
                 (choice->way == ChoiceHistory::Way::back ? "Taken back: " : "Done again: ") +
                     choice->what);
-    deeds_.choices().gone(*std::move(choice));
+    undo_steps_.choices().gone(*std::move(choice));
   }
   if (!cause.reloads) return;
   std::vector<std::string> lines;
   if (lost) lines.push_back("What was done before that cannot be taken back any more.");
   ui_.toast(ToastKind::info,
-            scene_.wish.text ? "The scene's file has changed: opened anew, with what was changed "
-                               "here"
-                             : "The scene's file has changed: opened anew",
+            scene_.request.text
+                ? "The scene's file has changed: opened anew, with what was changed "
+                  "here"
+                : "The scene's file has changed: opened anew",
             std::move(lines));
 }
 
@@ -116,15 +119,15 @@ void Application::finish_opening(SceneOpening::Opened done) {
   finish_description({});
   // The same scene with other numbers or another text is looked at from where one stands, and
   // waits if it did.
-  const bool same = asked.scene == scene_.wish.scene &&
+  const bool same = asked.scene == scene_.request.scene &&
                     (choice || !asked.overrides.empty() || asked.text || cause.reloads);
   const bool paused = session().paused();
   if (opened->file.unnamed) {
     // The newest changes decide whether the name of the scene shown is still in use.
-    deeds_.finish(session(), options_.own_thread);
+    undo_steps_.finish(session(), options_.own_thread);
     opened->file.path = !asked.called.empty()         ? asked.called
                         : same && scene_.file.unnamed ? scene_.file.path
-                                                      : deeds_.unsaved().free_name();
+                                                      : undo_steps_.unsaved().free_name();
   }
   const LookedAt looked_at = same ? looked_at_in(*opened) : LookedAt{};
   // What does not act on bodies (cameras, light, words) leaves the world as it is, at this moment;
@@ -134,7 +137,7 @@ void Application::finish_opening(SceneOpening::Opened done) {
                           opened->world_hash != 0;
   const auto moment = same_world ? session().keep() : nullptr;
   if (!same) description_.forget();
-  description_.count_deeds_anew();
+  description_.count_undo_steps_anew();
   renaming_.reset();
   const SceneCamera camera = camera_;
   show(std::move(*opened), same);
@@ -166,52 +169,52 @@ void Application::begin_building() {
 void Application::look_at_files(double dt) {
   // Closed by its button, or by a click beside it.
   if (!ui_.shows(PanelId::question)) question_.decline(ui_);
-  deeds_.unsaved().update(session(), deeds_.edits().file_edits(), dt);
+  undo_steps_.unsaved().update(session(), undo_steps_.edits().file_edits(), dt);
   const auto now = scene_file_.changed_by_others(dt);
   if (scene_file_.taken_away())
     ui_.toast(ToastKind::warning, "The scene's file is gone",
               {scene_.file.path.string(), fmt::format("What is shown stays: {} writes it anew.",
                                                       shortcut_of(Action::save_scene))});
   if (!now || recording()) return;
-  SceneWish wish = scene_.wish;
-  wish.text.reset();
-  if (deeds_.unsaved().any()) {
-    std::vector<SceneEdit> edits = deeds_.unsaved().edits();
+  OpenRequest wanted = scene_.request;
+  wanted.text.reset();
+  if (undo_steps_.unsaved().any()) {
+    std::vector<SceneEdit> edits = undo_steps_.unsaved().edits();
     auto both = save_edits(*now, scene_.file.path.string(), edits);
-    if (!both || scene_.wish.text)
+    if (!both || scene_.request.text)
       return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
                        {"What was changed here does not fit into it, and is kept: saving replaces "
                         "the file."});
-    wish.text = std::move(both->text);
+    wanted.text = std::move(both->text);
   }
   SceneOpening::Cause cause;
   cause.reloads = true;
   cause.tick = world_.frame().tick;
-  SceneWish start = wish;
+  OpenRequest start = wanted;
   start.text.reset();
-  cause.deeds = deeds_as_choices(start, *now);
-  cause.deeds_lost = cause.deeds.size() < deeds_.edits().deeds().size();
-  open_for(std::move(cause), std::move(wish));
+  cause.undo_steps = undo_steps_as_choices(start, *now);
+  cause.undo_steps_lost = cause.undo_steps.size() < undo_steps_.edits().undo_steps().size();
+  open_for(std::move(cause), std::move(wanted));
 }
 
 /// Opens the scene with work kept earlier, which can be undone as a whole.
 void Application::take_up(const UnsavedWork::Kept& kept, std::filesystem::path called) {
-  deeds_.unsaved().take_over(kept);
-  SceneWish wish = scene_.wish;
-  wish.text = kept.text;
-  wish.called = std::move(called);
-  if (!wish.called.empty()) return open(std::move(wish));
+  undo_steps_.unsaved().take_over(kept);
+  OpenRequest wanted = scene_.request;
+  wanted.text = kept.text;
+  wanted.called = std::move(called);
+  if (!wanted.called.empty()) return open(std::move(wanted));
   SceneOpening::Cause cause;
   cause.choice = ChoiceHistory::Step{ChoiceHistory::Way::anew, "Go on with unsaved changes",
-                                     scene_.wish, wish};
-  open_for(std::move(cause), std::move(wish));
+                                     scene_.request, wanted};
+  open_for(std::move(cause), std::move(wanted));
 }
 
 /// Offers new scenes that were never saved: each can be continued, and none replaces another.
 void Application::offer_unnamed_work() {
-  const auto kept = deeds_.unsaved().kept_unnamed();
+  const auto kept = undo_steps_.unsaved().kept_unnamed();
   if (kept.empty()) return;
-  QuestionDesk::Asked open;
+  QuestionController::Asked open;
   open.question.title = "There are new scenes that were not saved";
   constexpr size_t most = 4;
   for (size_t i = kept.size() - std::min(kept.size(), most); i < kept.size(); ++i) {
@@ -229,9 +232,9 @@ void Application::offer_unnamed_work() {
 
 /// Offers the unsaved work that an earlier run has left for this scene.
 void Application::offer_kept_work() {
-  if (scene_.wish.text) return;
+  if (scene_.request.text) return;
   if (scene_.file.unnamed) return offer_unnamed_work();
-  const auto kept = deeds_.unsaved().kept();
+  const auto kept = undo_steps_.unsaved().kept();
   if (!kept) return;
   question_.ask(
       {{"There are changes of this scene that were not saved",
@@ -239,20 +242,20 @@ void Application::offer_kept_work() {
                      kept->own ? "this scene was left" : "the program ended")},
         {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
        {[this, kept = *kept] { take_up(kept); },
-        [this, file = kept->file] { deeds_.unsaved().throw_away(file); }, [] {}}},
+        [this, file = kept->file] { undo_steps_.unsaved().throw_away(file); }, [] {}}},
       ui_);
 }
 
 void Application::ask_to_quit() {
   // Includes the newest change.
-  deeds_.finish(session(), options_.own_thread);
+  undo_steps_.finish(session(), options_.own_thread);
   const bool draft = description_.has_draft();
-  if ((!deeds_.unsaved().any() && !draft) || question_.quits()) {
+  if ((!undo_steps_.unsaved().any() && !draft) || question_.quits()) {
     quit_ = true;
     return;
   }
   std::vector<std::string> lines;
-  if (deeds_.unsaved().any())
+  if (undo_steps_.unsaved().any())
     lines.push_back("It is kept until this scene is opened again, and offered then.");
   if (draft)
     lines.push_back("Changes of the scene that are not in effect yet are neither saved nor kept.");
@@ -273,39 +276,39 @@ void Application::change_parameter(const ChangeParameter& change) {
 /// The moments stored for undo belong to this world. When another world takes its place, each
 /// change becomes a change of the scene's text, which is undone by opening the scene without it.
 /// `start`: the scene without the changes, with this text.
-std::vector<ChoiceHistory::Step> Application::deeds_as_choices(const SceneWish& start,
-                                                               std::string text) {
-  const auto deeds = deeds_.edits().deeds();
-  std::vector<DeedEdits> edits;
-  for (const auto& deed : deeds) edits.push_back(deed.second);
-  const std::vector<uint64_t> ticks = deeds_.edits().ticks();
-  const std::vector<std::string> texts = deeds_.unsaved().texts_after(
-      text, session(), deeds_.edits().forgotten(), edits, options_.own_thread);
+std::vector<ChoiceHistory::Step> Application::undo_steps_as_choices(const OpenRequest& start,
+                                                                    std::string text) {
+  const auto undo_steps = undo_steps_.edits().undo_steps();
+  std::vector<UndoStepEdits> edits;
+  for (const auto& undo_step : undo_steps) edits.push_back(undo_step.second);
+  const std::vector<uint64_t> ticks = undo_steps_.edits().ticks();
+  const std::vector<std::string> texts = undo_steps_.unsaved().texts_after(
+      text, session(), undo_steps_.edits().forgotten(), edits, options_.own_thread);
   std::vector<ChoiceHistory::Step> out;
-  SceneWish wish = start;
+  OpenRequest wanted = start;
   for (size_t i = 0; i < texts.size(); ++i) {
     if (texts[i] == text) continue;  // a change that a file cannot represent
-    SceneWish before = wish;
-    wish.text = text = texts[i];
-    out.push_back({ChoiceHistory::Way::anew, deeds[i].first, std::move(before), wish, ticks[i],
-                   world_.frame().tick});
+    OpenRequest before = wanted;
+    wanted.text = text = texts[i];
+    out.push_back({ChoiceHistory::Way::anew, undo_steps[i].first, std::move(before), wanted,
+                   ticks[i], world_.frame().tick});
   }
   return out;
 }
 
-/// The wish that opens the scene as it is now, with its changes.
-SceneWish Application::wish_of_now() {
+/// The request that opens the scene as it is now, with its changes.
+OpenRequest Application::request_of_now() {
   // Includes the newest change.
-  deeds_.finish(session(), options_.own_thread);
-  SceneWish wish = scene_.wish;
-  if (deeds_.unsaved().any()) wish.text = deeds_.unsaved().text();
-  return wish;
+  undo_steps_.finish(session(), options_.own_thread);
+  OpenRequest wanted = scene_.request;
+  if (undo_steps_.unsaved().any()) wanted.text = undo_steps_.unsaved().text();
+  return wanted;
 }
 
 /// Opens the scene anew with other numbers and with its changes, at the tick `tick`.
 void Application::choose(const std::vector<std::string>& overrides, std::string what,
                          uint64_t tick) {
-  SceneWish after = wish_of_now();
+  OpenRequest after = request_of_now();
   for (const std::string& one : overrides) {
     const std::string path = one.substr(0, one.find('=') + 1);
     std::erase_if(after.overrides, [&](const std::string& o) { return o.starts_with(path); });
@@ -314,19 +317,19 @@ void Application::choose(const std::vector<std::string>& overrides, std::string 
   choose(std::move(after), std::move(what), tick);
 }
 
-void Application::choose(SceneWish after, std::string what, uint64_t tick) {
+void Application::choose(OpenRequest after, std::string what, uint64_t tick) {
   SceneOpening::Cause cause;
   cause.choice =
-      ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), wish_of_now(), after};
+      ChoiceHistory::Step{ChoiceHistory::Way::anew, std::move(what), request_of_now(), after};
   cause.choice->leave_at(world_.frame().tick);
-  cause.deeds = deeds_as_choices(scene_.wish, scene_.file.text);
+  cause.undo_steps = undo_steps_as_choices(scene_.request, scene_.file.text);
   cause.tick = tick;
   open_for(std::move(cause), std::move(after));
 }
 
 /// Renames a body and every reference to it: the scene is opened anew at this moment.
 void Application::rename_body(const std::string& name, const std::string& to) {
-  SceneWish after = wish_of_now();
+  OpenRequest after = request_of_now();
   auto text = renamed(after.text.value_or(scene_.file.text), "bodies", name, to);
   if (text) {
     if (const Status opens = check_scene_text(*text, scene_.file.path); !opens)
@@ -346,9 +349,9 @@ bool Application::go_back_on(std::optional<ChoiceHistory::Step> choice) {
   SceneOpening::Cause cause;
   cause.tick = choice->tick();
   choice->leave_at(world_.frame().tick);
-  SceneWish wish = choice->wish();
+  OpenRequest wanted = choice->request();
   cause.choice = std::move(choice);
-  open_for(std::move(cause), std::move(wish));
+  open_for(std::move(cause), std::move(wanted));
   return true;
 }
 
@@ -359,7 +362,7 @@ void Application::save_scene() {
   ui_.shows(PanelId::save) = true;
   ui_.save_file.clear();
   ui_.save_fault.clear();
-  scene_file_.prepare(session(), deeds_.edits().file_edits(), chosen_numbers(scene_),
+  scene_file_.prepare(session(), undo_steps_.edits().file_edits(), chosen_numbers(scene_),
                       options_.own_thread);
 }
 
@@ -378,10 +381,10 @@ void Application::write_scene(const std::string& file) {
   marks_.go_on_as(marked_scene());
   // The scene's file is now that one: opening it anew gives what was saved.
   std::error_code none;
-  scene_.wish.scene = std::filesystem::absolute(scene_.file.path, none).string();
-  scene_.wish.text.reset();
-  deeds_.choices().saved(scene_.wish.scene, before);
-  deeds_.unsaved().saved(scene_.file);
+  scene_.request.scene = std::filesystem::absolute(scene_.file.path, none).string();
+  scene_.request.text.reset();
+  undo_steps_.choices().saved(scene_.request.scene, before);
+  undo_steps_.unsaved().saved(scene_.file);
   // Messages about a version that could not be opened are outdated.
   std::erase_if(ui_.toasts, [](const Toast& t) { return t.title.ends_with("cannot be opened"); });
   ui_.toast(ToastKind::info, "Saved to " + file);

@@ -23,7 +23,7 @@ void Application::route(std::span<const InputEvent> events, double dt) {
   const HeldInput before = pointer_.held();
   const bool search_was_shown = ui_.shows(PanelId::scenes);
   std::vector<InputEvent> for_scene;
-  if (!in_gesture()) deeds_.end_gesture();
+  if (!in_gesture()) undo_steps_.end_gesture();
   for (const InputEvent& event : events) {
     pointer_.note(event);
     if (const auto* key = std::get_if<KeyPressed>(&event)) {
@@ -207,10 +207,10 @@ void Application::apply(const PointerEffects& effects) {
   if (!drag.active()) return;
   if (effects.drag_began) {
     begin_edit("Pull " + name_of(drag.body()));
-    hand_.take(session(), drag.def());
+    mouse_pull_.take(session(), drag.def());
   }
-  if (effects.drag_moved) hand_.move(session(), drag.def());
-  if (effects.turn) hand_.turn(session(), drag.body(), *effects.turn);
+  if (effects.drag_moved) mouse_pull_.move(session(), drag.def());
+  if (effects.turn) mouse_pull_.turn(session(), drag.body(), *effects.turn);
 }
 
 /// Opens the inspector for a selection, unless it would cover, in a narrow window, what was
@@ -235,7 +235,7 @@ void Application::look_into(const std::optional<ContactPick>& contact) {
 
 void Application::end_drag() {
   if (pointer_.drag().active()) pointer_.cancel();
-  if (world_.any()) hand_.let_go(session());
+  if (world_.any()) mouse_pull_.let_go(session());
 }
 
 void Application::shoot(const Ray& ray) {

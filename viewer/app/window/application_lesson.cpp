@@ -56,7 +56,7 @@ void Application::take_lesson_choice() {
 /// Whether the world has the settings that the page chooses.
 bool Application::lesson_choice_is_taken(const std::vector<std::string>& choose) const {
   for (const std::string& choice : choose)
-    if (std::ranges::find(scene_.wish.overrides, choice) == scene_.wish.overrides.end())
+    if (std::ranges::find(scene_.request.overrides, choice) == scene_.request.overrides.end())
       return false;
   return true;
 }

@@ -14,7 +14,7 @@ void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, d
   const auto made = new_parts(kind, place, *tools_.parts.parts());
   if (made.empty()) return;
   const auto& [name, part] = made.back();
-  const DeedEdits edits = begin_edit("Add " + name);
+  const UndoStepEdits edits = begin_edit("Add " + name);
   for (const auto& [one_name, one] : made) tools_.parts.expect(one_name, one);
   session().post([made, edits, parts = tools_.parts.parts(), live = tools_.parts.live(),
                   refusal = tools_.refusal](World& world) {
@@ -32,7 +32,7 @@ void Application::add_parts(PartKind kind, const Vec3& at, const Vec3& normal, d
 }
 
 void Application::edit_part(const EditPart& edit) {
-  const DeedEdits edits = begin_edit(edit.what, true);
+  const UndoStepEdits edits = begin_edit(edit.what, true);
   tools_.parts.expect(edit.name, edit.after);
   session().post([edit, edits, parts = tools_.parts.parts(), live = tools_.parts.live(),
                   refusal = tools_.refusal](World& world) {
@@ -45,13 +45,13 @@ void Application::edit_part(const EditPart& edit) {
 }
 
 void Application::remove_part(const RemovePart& removal) {
-  const Removal deed = begin_removal("Delete " + removal.name);
+  const Removal undo_step = begin_removal("Delete " + removal.name);
   tools_.parts.expect(removal.name, removal.part, true);
-  session().post([removal, deed, live = tools_.parts.live()](World& world) {
+  session().post([removal, undo_step, live = tools_.parts.live()](World& world) {
     // It may be gone from the world already; it is removed from the file all the same.
     (void)live->remove(world, removal.name, removal.part);
-    deed.take(world, RemovedPart{removal.name, removal.part});
-    deed.finish(world);
+    undo_step.take(world, RemovedPart{removal.name, removal.part});
+    undo_step.finish(world);
   });
   tools_.parts.note();
 }

@@ -18,9 +18,10 @@ bool is_same(const CameraKey& a, const CameraKey& b) {
 /// Description of a change to a list in time order, with the time: "Set a bookmark at 0.40 s"; ""
 /// if nothing changed.
 template <class Mark>
-std::string list_deed(const std::vector<Mark>& before, const std::vector<Mark>& now, const char* of,
-                      const std::function<bool(const Mark&, const Mark&)>& same,
-                      const std::function<double(const Mark&)>& time_of) {
+std::string list_undo_step(const std::vector<Mark>& before, const std::vector<Mark>& now,
+                           const char* of,
+                           const std::function<bool(const Mark&, const Mark&)>& same,
+                           const std::function<double(const Mark&)>& time_of) {
   const auto [b, n] = std::ranges::mismatch(before, now, same);
   if (b == before.end() && n == now.end()) return {};
   const char* verb = now.size() > before.size()   ? "Set"
@@ -29,13 +30,14 @@ std::string list_deed(const std::vector<Mark>& before, const std::vector<Mark>& 
   return fmt::format("{} {} at {:.2f} s", verb, of, time_of(now.size() < before.size() ? *b : *n));
 }
 
-std::string mark_deed(const SceneMarks& before, const SceneMarks& now, const TickClock& clock) {
-  const std::string deed = list_deed<Bookmark>(
+std::string mark_undo_step(const SceneMarks& before, const SceneMarks& now,
+                           const TickClock& clock) {
+  const std::string undo_step = list_undo_step<Bookmark>(
       before.time.bookmarks, now.time.bookmarks, "a bookmark", std::equal_to<>(),
       [&](const Bookmark& b) { return clock.time_of(b.tick); });
-  if (!deed.empty()) return deed;
-  return list_deed<CameraKey>(before.flight, now.flight, "a key of the flight", is_same,
-                              [](const CameraKey& k) { return k.time; });
+  if (!undo_step.empty()) return undo_step;
+  return list_undo_step<CameraKey>(before.flight, now.flight, "a key of the flight", is_same,
+                                   [](const CameraKey& k) { return k.time; });
 }
 
 }  // namespace
@@ -80,9 +82,9 @@ void Application::edit_marks(const std::function<void(TimeMarks&)>& change) {
 void Application::change_marks(const std::function<void(SceneMarks&)>& change) {
   auto before = std::make_shared<SceneMarks>(marks_.marks());
   marks_.change(change);
-  std::string what = mark_deed(*before, marks_.marks(), marks_.clock());
+  std::string what = mark_undo_step(*before, marks_.marks(), marks_.clock());
   if (what.empty()) return;
-  deeds_.begin_beside(std::move(what), in_gesture(), [this, before] {
+  undo_steps_.begin_beside(std::move(what), in_gesture(), [this, before] {
     marks_.change([&](SceneMarks& marks) {
       std::swap(marks.time.bookmarks, before->time.bookmarks);
       std::swap(marks.flight, before->flight);
@@ -131,7 +133,7 @@ void Application::toggle_loop() {
   std::optional<TickSpan> span = time.span;
   if (!span)
     span = time.span_about(world_.frame().tick, session().counters().first_tick,
-                           std::max(deeds_.newest_tick(), world_.frame().tick));
+                           std::max(undo_steps_.newest_tick(), world_.frame().tick));
   if (!span)
     return ui_.toast(ToastKind::info, "There is no span of time to loop yet",
                      {"Let some time pass, then Shift + drag on the line of time."});
@@ -172,18 +174,18 @@ std::optional<Vec3> Application::place_of_body(const std::string& name) const {
   return std::nullopt;
 }
 
-void Application::follow_from_key(const FollowFromKey& wish) {
+void Application::follow_from_key(const FollowFromKey& wanted) {
   const auto& flight = marks_.marks().flight;
-  if (wish.index >= flight.size()) return;
-  const auto x = place_of_body(wish.body);
-  if (!wish.body.empty() && !x)
-    return ui_.toast(ToastKind::info, "There is no body " + wish.body + " at this moment");
-  if (x && marks_.clock().tick_at(flight[wish.index].time) != world_.frame().tick)
+  if (wanted.index >= flight.size()) return;
+  const auto x = place_of_body(wanted.body);
+  if (!wanted.body.empty() && !x)
+    return ui_.toast(ToastKind::info, "There is no body " + wanted.body + " at this moment");
+  if (x && marks_.clock().tick_at(flight[wanted.index].time) != world_.frame().tick)
     return ui_.toast(ToastKind::info, "A key follows from its own moment on: go there first",
                      {"Its time in the list is a button that does."});
   change_flight([&](std::vector<CameraKey>& keys) {
-    keys[wish.index].follow = wish.body;
-    keys[wish.index].follow_x = x.value_or(Vec3::Zero());
+    keys[wanted.index].follow = wanted.body;
+    keys[wanted.index].follow_x = x.value_or(Vec3::Zero());
   });
 }
 

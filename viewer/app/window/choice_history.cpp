@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// Greatest number of steps; a wish may contain the text of a scene.
+/// Greatest number of steps; a request may contain the text of a scene.
 constexpr size_t most_choices = 200;
 
 }  // namespace
@@ -27,9 +27,9 @@ std::optional<ChoiceHistory::Step> ChoiceHistory::again() const {
 void ChoiceHistory::saved(const std::string& scene, const std::string& text) {
   for (std::vector<Step>* steps : {&done_, &undone_})
     for (Step& step : *steps)
-      for (SceneWish* wish : {&step.before, &step.after}) {
-        wish->scene = scene;
-        if (!wish->text) wish->text = text;
+      for (OpenRequest* wanted : {&step.before, &step.after}) {
+        wanted->scene = scene;
+        if (!wanted->text) wanted->text = text;
       }
 }
 

@@ -8,8 +8,8 @@
 namespace tumble {
 
 /// Undo history of changes to the numbers of a scene. Each change opens the scene anew, and so does
-/// undoing it; so this history stores wishes (SceneWish), where EditHistory stores moments of the
-/// world.
+/// undoing it; so this history stores requests (OpenRequest), where EditHistory stores moments of
+/// the world.
 class ChoiceHistory {
  public:
   enum class Way : uint8_t { anew, back, again };
@@ -17,18 +17,18 @@ class ChoiceHistory {
   struct Step {
     Way way = Way::anew;
     std::string what;  ///< "Change balls"
-    SceneWish before{}, after{};
+    OpenRequest before{}, after{};
     uint64_t tick_before = 0, tick_after = 0;  ///< present tick when each was left
     uint64_t tick() const { return way == Way::back ? tick_before : tick_after; }
     /// Records the present tick at which the step is taken.
     void leave_at(uint64_t now) { (way == Way::back ? tick_after : tick_before) = now; }
-    const SceneWish& wish() const { return way == Way::back ? before : after; }
+    const OpenRequest& request() const { return way == Way::back ? before : after; }
   };
   /// The step that undoes the newest change; empty if there is none.
   std::optional<Step> back() const;
   /// The step that redoes the change undone last.
   std::optional<Step> again() const;
-  /// To be called when the scene was opened as the step wishes.
+  /// To be called when the scene was opened as the step asks.
   void gone(Step step);
   /// Another action was taken: nothing can be redone any more.
   void forget_taken_back() { undone_.clear(); }

@@ -5,7 +5,7 @@
 #include "viewer/app/editing/duplicator.hpp"
 #include "viewer/app/editing/mesh_modes.hpp"
 #include "viewer/app/editing/mesh_palette.hpp"
-#include "viewer/app/editing/parts_desk.hpp"
+#include "viewer/app/editing/parts_controller.hpp"
 #include "viewer/app/session/refusal.hpp"
 #include "viewer/app/session/selected_def.hpp"
 #include "viewer/app/window/pointer.hpp"
@@ -25,7 +25,7 @@ struct EditingTools {
   MeshPalette mesh_palette;
   MeshModes mesh_modes;
   SelectedDef selected_def;
-  PartsDesk parts;
+  PartsController parts;
   std::optional<PointerBox> box;  ///< selection box being dragged
   Refusal refusal;                ///< why the world rejected a request
 

@@ -3,7 +3,7 @@
 #include "viewer/app/session/event_watch.hpp"
 #include "viewer/app/session/microscope_probe.hpp"
 #include "viewer/app/session/past_curves.hpp"
-#include "viewer/app/window/microscope_desk.hpp"
+#include "viewer/app/window/microscope_controller.hpp"
 #include "viewer/app/window/ruler.hpp"
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/measures.hpp"
@@ -22,7 +22,7 @@ struct Instruments {
   Ruler ruler;
   std::shared_ptr<EventWatch> events;  ///< events of the world shown
   ContactProbe probe;
-  MicroscopeDesk microscope;
+  MicroscopeController microscope;
   MicroscopeProbe microscope_probe;
 
   /// To be called when another world is shown.

@@ -131,7 +131,7 @@ Result<OpenedScene> open_scene(const SceneRequest& request, double aspect) {
   OpenedScene out;
   const std::shared_ptr<const SceneDescription> description = loaded->built.description;
   out.name = loaded->name;
-  out.wish = {request.scene, request.overrides, request.text};
+  out.request = {request.scene, request.overrides, request.text};
   out.file = file_of(*loaded, request);
   out.world_hash = hash_of_world(*description);
   out.parameters = parameters_of(*description, out.file.text);

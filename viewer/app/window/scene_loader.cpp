@@ -7,15 +7,15 @@ namespace tumble {
 std::vector<SceneEdit> chosen_numbers(const OpenedScene& scene) {
   std::vector<SceneEdit> numbers;
   for (const SceneParameter& p : scene.parameters)
-    for (const std::string& o : scene.wish.overrides)
+    for (const std::string& o : scene.request.overrides)
       if (o.starts_with(fmt::format("parameters.{}=", p.name)))
         numbers.push_back(ChangedParameter{p.name, p.value});
   return numbers;
 }
 
-void SceneLoader::start(SceneOpener open, SceneWish wish) {
+void SceneLoader::start(SceneOpener open, OpenRequest wanted) {
   open_ = std::move(open);
-  asked_ = std::move(wish);
+  asked_ = std::move(wanted);
   since_ = Clock::now();
   outdated_ = under_way_.valid();
   if (outdated_)
@@ -26,9 +26,9 @@ void SceneLoader::start(SceneOpener open, SceneWish wish) {
 
 void SceneLoader::begin() {
   stop_.clear();
-  under_way_ = std::async(std::launch::async, [this, open = open_, wish = asked_] {
+  under_way_ = std::async(std::launch::async, [this, open = open_, wanted = asked_] {
     const Stoppable scope(&stop_);
-    return open(wish);
+    return open(wanted);
   });
 }
 

@@ -22,7 +22,7 @@ class SceneAssertions;
 class SceneLesson;
 
 /// What to open: a scene by name, or a scene or mesh file by path.
-struct SceneWish {
+struct OpenRequest {
   std::string scene;
   std::vector<std::string> overrides;  ///< "path=value", as for --set
   std::optional<std::string> text;     ///< instead of the file's content: unsaved work
@@ -41,7 +41,7 @@ struct OpenedScene {
   std::unique_ptr<World> world;  ///< at its first tick
   std::string name, title, doc;
   SceneFile file;                          ///< for saving
-  SceneWish wish;                          ///< that it was opened by
+  OpenRequest request;                     ///< that it was opened by
   std::vector<SceneParameter> parameters;  ///< numbers that it declares
   uint64_t world_hash = 0;                 ///< of all in the file that acts on bodies; 0: not known
   ViewPoint view;                          ///< where a person looks at it first
@@ -63,7 +63,7 @@ struct OpenedScene {
 /// Parameters whose values differ from those of the scene's file.
 std::vector<SceneEdit> chosen_numbers(const OpenedScene& scene);
 /// Opens a scene. The error lists all faults, one per line. Must be callable from any thread.
-using SceneOpener = std::function<Result<OpenedScene>(const SceneWish&)>;
+using SceneOpener = std::function<Result<OpenedScene>(const OpenRequest&)>;
 
 /// Opens scenes one at a time on a thread of its own. A new request cancels the one under way, and
 /// so does destruction; of several requests, only the newest is carried out.
@@ -75,11 +75,11 @@ class SceneLoader {
   SceneLoader& operator=(const SceneLoader&) = delete;
 
   struct Loaded {
-    SceneWish asked;  ///< as it was given to start()
+    OpenRequest asked;  ///< as it was given to start()
     Result<OpenedScene> scene;
   };
 
-  void start(SceneOpener open, SceneWish wish);
+  void start(SceneOpener open, OpenRequest wanted);
   /// Whether a scene is being opened, or waits to be taken.
   bool busy() const { return under_way_.valid(); }
   /// The scene being opened; "": none.
@@ -95,7 +95,7 @@ class SceneLoader {
   using Clock = std::chrono::steady_clock;
 
   SceneOpener open_;
-  SceneWish asked_;
+  OpenRequest asked_;
   bool outdated_ = false;  ///< another scene was requested since the one under way
   Clock::time_point since_;
   StopFlag stop_;  ///< of the one under way

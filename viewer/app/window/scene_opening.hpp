@@ -15,21 +15,21 @@ class SceneOpening {
     /// The user's choice that caused it; none: the scene was chosen for viewing.
     std::optional<ChoiceHistory::Step> choice{};
     /// The user's earlier changes to the scene, to be kept in its history.
-    std::vector<ChoiceHistory::Step> deeds{};
-    bool reloads = false;     ///< it is the scene shown, whose file another program has written
-    uint64_t tick = 0;        ///< the tick to show, if it is the same scene
-    bool deeds_lost = false;  ///< some changes could not be turned into choices
+    std::vector<ChoiceHistory::Step> undo_steps{};
+    bool reloads = false;  ///< it is the scene shown, whose file another program has written
+    uint64_t tick = 0;     ///< the tick to show, if it is the same scene
+    bool undo_steps_lost = false;  ///< some changes could not be turned into choices
   };
   struct Opened {
-    SceneWish asked;
+    OpenRequest asked;
     Result<OpenedScene> scene;
     Cause cause;
   };
 
   /// Starts opening a scene; one under way is dropped.
-  void start(SceneOpener open, SceneWish wish, Cause cause) {
+  void start(SceneOpener open, OpenRequest wanted, Cause cause) {
     cause_ = std::move(cause);
-    loader_.start(std::move(open), std::move(wish));
+    loader_.start(std::move(open), std::move(wanted));
   }
   /// The opened scene, once.
   std::optional<Opened> take() {

@@ -458,7 +458,7 @@ void draw_description_panel(PanelContext& context) {
   ImGui::PopStyleVar();
 }
 
-std::string deed_of(const EditDescription& edit) {
+std::string undo_step_of(const EditDescription& edit) {
   const ScenePath around = outer_path(edit.path);
   const std::string last = text_of({edit.path.begin() + ptrdiff_t(around.size()), edit.path.end()});
   const std::string of = around.empty() ? std::string() : " of " + text_of(around);

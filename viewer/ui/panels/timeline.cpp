@@ -122,9 +122,9 @@ void draw_line(PanelContext& context, const Scale& scale, float y) {
   if (m.marks->span) draw_span(*m.marks->span, m.marks->looping, scale, y);
   draw_events(context, scale, y);
   draw_bookmarks(context, scale, y);
-  for (const uint64_t deed : m.deed_ticks)
-    if (deed >= scale.first && deed <= scale.last)
-      list.AddRectFilled({scale.at(deed) - 1.5f, y - 7}, {scale.at(deed) + 1.5f, y + 7},
+  for (const uint64_t undo_step : m.undo_step_ticks)
+    if (undo_step >= scale.first && undo_step <= scale.last)
+      list.AddRectFilled({scale.at(undo_step) - 1.5f, y - 7}, {scale.at(undo_step) + 1.5f, y + 7},
                          palette::blue, 1);
   list.AddCircleFilled({now, y}, 7, palette::text);
 }

@@ -12,10 +12,10 @@ namespace tumble {
 /// The text of the scene's file as it is shown and changed value by value. A change that makes a
 /// scene is taken at once; one that the reader refuses is kept as a draft, with what is wrong, and
 /// so are those that follow, until together they make a scene: nothing that was typed is lost.
-class DescriptionDesk {
+class DescriptionController {
  public:
   /// Another scene is shown.
-  void forget() { *this = DescriptionDesk{}; }
+  void forget() { *this = DescriptionController{}; }
   /// Called once a picture: `text` as the scene's file would be now, and the place that is looked
   /// at, which becomes the nearest one that is there.
   void look(const std::string& text, ScenePath& place);
@@ -33,17 +33,19 @@ class DescriptionDesk {
                        const EditDescription& edit) const;
 
   /// The change that was tried makes no scene, or is to be opened first, which takes its time.
-  /// `deeds`: how many changes of the world could be undone then.
-  void keep(EditDescription edit, std::vector<std::string> faults, bool opening, size_t deeds);
+  /// `undo_steps`: how many changes of the world could be undone then.
+  void keep(EditDescription edit, std::vector<std::string> faults, bool opening, size_t undo_steps);
   /// What was to be opened could not be.
   void refuse(std::vector<std::string> faults);
   bool opening() const { return view_.opening; }
   bool has_draft() const { return !draft_.empty(); }
   const std::vector<EditDescription>& draft() const { return draft_; }
   /// The newest change of the draft came after all of so many changes of the world.
-  bool newer_than(size_t deeds) const { return has_draft() && deeds <= deeds_then_.back(); }
+  bool newer_than(size_t undo_steps) const {
+    return has_draft() && undo_steps <= undo_steps_then_.back();
+  }
   /// Changes of the world are counted anew: all of them are newer.
-  void count_deeds_anew() { deeds_then_.assign(draft_.size(), 0); }
+  void count_undo_steps_anew() { undo_steps_then_.assign(draft_.size(), 0); }
   /// The newest change of the draft is taken back; what it was.
   std::string take_back(const std::string& text, const std::filesystem::path& file);
   /// The draft is a scene now, or is not wanted any more.
@@ -53,7 +55,7 @@ class DescriptionDesk {
   Result<Changed> with_draft(const std::string& text) const;
 
   std::vector<EditDescription> draft_;
-  std::vector<size_t> deeds_then_;  ///< for each of the draft
+  std::vector<size_t> undo_steps_then_;  ///< for each of the draft
   DescriptionView view_;
   std::string shown_text_;  ///< of what the outline is
   ScenePath shown_;

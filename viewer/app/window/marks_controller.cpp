@@ -1,4 +1,4 @@
-#include "viewer/app/window/marks_desk.hpp"
+#include "viewer/app/window/marks_controller.hpp"
 
 #include "viewer/capture/atomic_file.hpp"
 
@@ -135,7 +135,7 @@ Result<std::string> with_marks(std::string_view text, const std::string& scene,
   }
 }
 
-Status MarksDesk::open(const std::string& scene, double tick_seconds) {
+Status MarksController::open(const std::string& scene, double tick_seconds) {
   Status kept = keep(true);
   changed_ = failed_ = false;
   scene_ = scene;
@@ -154,27 +154,27 @@ Status MarksDesk::open(const std::string& scene, double tick_seconds) {
   return kept;
 }
 
-void MarksDesk::go_on_as(const std::string& scene) {
+void MarksController::go_on_as(const std::string& scene) {
   if (scene == scene_) return;
   scene_ = scene;
   changed_ = true;
   failed_ = false;
 }
 
-void MarksDesk::change(const std::function<void(SceneMarks&)>& how) {
+void MarksController::change(const std::function<void(SceneMarks&)>& how) {
   how(marks_);
   changed_ = true;
   failed_ = false;
 }
 
-Status MarksDesk::keep(bool once_more) {
+Status MarksController::keep(bool once_more) {
   if (!changed_ || (failed_ && !once_more)) return {};
   const Status written = write();
   changed_ = failed_ = !written;
   return written;
 }
 
-Status MarksDesk::write() {
+Status MarksController::write() {
   if (file_.empty()) {
     others_[scene_] = marks_;
     return {};
@@ -189,7 +189,7 @@ Status MarksDesk::write() {
   return write_file(file_, std::string_view(*changed));
 }
 
-std::optional<uint64_t> MarksDesk::jump_back(uint64_t tick, uint64_t generation) {
+std::optional<uint64_t> MarksController::jump_back(uint64_t tick, uint64_t generation) {
   const TimeMarks& time = marks_.time;
   if (!time.looping || !time.span || tick < time.span->to || jumped_ == generation)
     return std::nullopt;

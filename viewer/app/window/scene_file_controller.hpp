@@ -10,17 +10,17 @@
 namespace tumble {
 
 /// The file of the scene shown: saved by the user, changed by other programs.
-class SceneFileDesk {
+class SceneFileController {
  public:
   void open(const SceneFile& file) {
     saver_.open(file);
     watch_.open(file.read_from, file.on_disk);
   }
   /// Prepares a preview of what saving would write: see SceneSaver.
-  void prepare(Session& session, std::vector<DeedEdits> deeds, std::vector<SceneEdit> others,
-               bool beside) {
+  void prepare(Session& session, std::vector<UndoStepEdits> undo_steps,
+               std::vector<SceneEdit> others, bool beside) {
     named_ = false;
-    saver_.prepare(session, std::move(deeds), std::move(others), beside);
+    saver_.prepare(session, std::move(undo_steps), std::move(others), beside);
   }
   /// To be called once per picture. Sets `name` to the proposed path once; later the user may
   /// change it.

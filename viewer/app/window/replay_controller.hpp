@@ -9,7 +9,7 @@ class ReplayPlayer;
 struct OpenedScene;
 
 /// The replay being played into the world shown, and the saving of a replay of the user's commands.
-class ReplayDesk {
+class ReplayController {
  public:
   /// To be called when a scene is about to be shown.
   void open(const OpenedScene& scene, int threads);
@@ -19,7 +19,7 @@ class ReplayDesk {
 
  private:
   ReplaySaver saver_;
-  uint64_t deeds_ = 0;  ///< number of commands the played replay has executed
+  uint64_t undo_steps_ = 0;  ///< number of commands the played replay has executed
 };
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "viewer/app/editing/description_desk.hpp"
+#include "viewer/app/editing/description_controller.hpp"
 
 #include "engine/scene/outline/outline_edits.hpp"
 #include "engine/scene/reader.hpp"
@@ -45,9 +45,9 @@ Result<ScenePath> named_place(const std::string& text, ScenePath path) {
   return path;
 }
 
-Result<DescriptionDesk::Changed> renamed_place(const std::string& text,
-                                               const EditDescription& edit) {
-  DescriptionDesk::Changed out{{}, edit.path, {}, {}};
+Result<DescriptionController::Changed> renamed_place(const std::string& text,
+                                                     const EditDescription& edit) {
+  DescriptionController::Changed out{{}, edit.path, {}, {}};
   out.place.back().key = edit.value;
   if (edit.path.size() == 2) {
     auto done = renamed(text, edit.path[0].key, edit.path[1].key, edit.value);
@@ -69,9 +69,10 @@ Result<DescriptionDesk::Changed> renamed_place(const std::string& text,
   return out;
 }
 
-Result<DescriptionDesk::Changed> carried_out(const std::string& text, const EditDescription& edit) {
+Result<DescriptionController::Changed> carried_out(const std::string& text,
+                                                   const EditDescription& edit) {
   using How = EditDescription::How;
-  DescriptionDesk::Changed out{{}, outer_path(edit.path), {}, {}};
+  DescriptionController::Changed out{{}, outer_path(edit.path), {}, {}};
   Result<std::string> done = text;
   switch (edit.how) {
     case How::set:
@@ -106,7 +107,7 @@ Result<DescriptionDesk::Changed> carried_out(const std::string& text, const Edit
 
 }  // namespace
 
-void DescriptionDesk::look(const std::string& text, ScenePath& place) {
+void DescriptionController::look(const std::string& text, ScenePath& place) {
   std::string now = text;
   if (!draft_.empty())
     if (auto drafted = with_draft(text)) now = std::move(drafted->text);
@@ -123,7 +124,8 @@ void DescriptionDesk::look(const std::string& text, ScenePath& place) {
   shown_ = place;
 }
 
-Result<DescriptionDesk::Changed> DescriptionDesk::with_draft(const std::string& text) const {
+Result<DescriptionController::Changed> DescriptionController::with_draft(
+    const std::string& text) const {
   Changed out{text, {}, {}, {}};
   for (const EditDescription& edit : draft_) {
     auto next = carried_out(out.text, edit);
@@ -134,9 +136,8 @@ Result<DescriptionDesk::Changed> DescriptionDesk::with_draft(const std::string& 
   return out;
 }
 
-Result<DescriptionDesk::Changed> DescriptionDesk::with(const std::string& text,
-                                                       const std::filesystem::path& file,
-                                                       const EditDescription& edit) const {
+Result<DescriptionController::Changed> DescriptionController::with(
+    const std::string& text, const std::filesystem::path& file, const EditDescription& edit) const {
   auto before = with_draft(text);
   if (!before) return before.error();
   auto after = carried_out(before->text, edit);
@@ -147,23 +148,24 @@ Result<DescriptionDesk::Changed> DescriptionDesk::with(const std::string& text,
   return after;
 }
 
-void DescriptionDesk::keep(EditDescription edit, std::vector<std::string> faults, bool opening,
-                           size_t deeds) {
-  deeds_then_.push_back(deeds);
-  view_.draft.push_back(deed_of(edit));
+void DescriptionController::keep(EditDescription edit, std::vector<std::string> faults,
+                                 bool opening, size_t undo_steps) {
+  undo_steps_then_.push_back(undo_steps);
+  view_.draft.push_back(undo_step_of(edit));
   draft_.push_back(std::move(edit));
   view_.faults = std::move(faults);
   view_.opening = opening;
 }
 
-void DescriptionDesk::refuse(std::vector<std::string> faults) {
+void DescriptionController::refuse(std::vector<std::string> faults) {
   view_.faults = std::move(faults);
   view_.opening = false;
 }
 
-std::string DescriptionDesk::take_back(const std::string& text, const std::filesystem::path& file) {
+std::string DescriptionController::take_back(const std::string& text,
+                                             const std::filesystem::path& file) {
   draft_.pop_back();
-  deeds_then_.pop_back();
+  undo_steps_then_.pop_back();
   std::string what = std::move(view_.draft.back());
   view_.draft.pop_back();
   view_.faults.clear();
@@ -175,9 +177,9 @@ std::string DescriptionDesk::take_back(const std::string& text, const std::files
   return what;
 }
 
-void DescriptionDesk::leave_draft() {
+void DescriptionController::leave_draft() {
   draft_.clear();
-  deeds_then_.clear();
+  undo_steps_then_.clear();
   view_.draft.clear();
   view_.faults.clear();
   view_.opening = false;

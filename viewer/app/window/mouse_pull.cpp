@@ -1,4 +1,4 @@
-#include "viewer/app/window/hand.hpp"
+#include "viewer/app/window/mouse_pull.hpp"
 
 #include "engine/world/world.hpp"
 
@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-void Hand::take(Session& session, const MouseSpringDef& spring) {
+void MousePull::take(Session& session, const MouseSpringDef& spring) {
   holds_ = true;
   session.post([springs = springs_, spring](World& world) {
     const auto id = world.create_force(spring);
@@ -18,21 +18,21 @@ void Hand::take(Session& session, const MouseSpringDef& spring) {
   });
 }
 
-void Hand::move(Session& session, const MouseSpringDef& spring) {
+void MousePull::move(Session& session, const MouseSpringDef& spring) {
   if (!holds_) return;
   session.post([springs = springs_, spring](World& world) {
     if (springs->held) (void)world.set_force(springs->held, spring);
   });
 }
 
-void Hand::turn(Session& session, BodyId id, const Vec3& omega) {
+void MousePull::turn(Session& session, BodyId id, const Vec3& omega) {
   if (!holds_) return;
   session.post([id, omega](World& world) {
     if (const RigidBody* body = world.body(id)) (void)world.set_velocity(id, body->v, omega);
   });
 }
 
-void Hand::let_go(Session& session) {
+void MousePull::let_go(Session& session) {
   if (!holds_) return;
   holds_ = false;
   session.post([springs = springs_](World& world) {
@@ -41,7 +41,7 @@ void Hand::let_go(Session& session) {
   });
 }
 
-void Hand::let_go_of_the_past(Session& session) {
+void MousePull::let_go_of_the_past(Session& session) {
   let_go(session);
   session.post([springs = springs_](World& world) {
     for (const ForceId id : springs->made) (void)world.destroy_force(id);  // it may no longer exist

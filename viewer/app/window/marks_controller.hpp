@@ -29,10 +29,10 @@ Result<std::string> with_marks(std::string_view text, const std::string& scene,
 
 /// Bookmarks, looped span and camera flight of the scene shown, kept in a file of the user from one
 /// opening to the next.
-class MarksDesk {
+class MarksController {
  public:
   /// With an empty `file`, marks are kept only while the program runs.
-  explicit MarksDesk(std::filesystem::path file) : file_(std::move(file)) {}
+  explicit MarksController(std::filesystem::path file) : file_(std::move(file)) {}
 
   /// To be called when another scene is shown. A file that cannot be read is an error, and is not
   /// overwritten.

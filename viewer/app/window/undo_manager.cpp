@@ -1,19 +1,19 @@
-#include "viewer/app/window/deed_desk.hpp"
+#include "viewer/app/window/undo_manager.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace tumble {
 
-void DeedDesk::forget() {
+void UndoManager::forget() {
   edits_.forget();
   newest_tick_ = 0;
   other_course_ = false;
   selected_then_.clear();
 }
 
-DeedEdits DeedDesk::begin(Session& session, std::string what, bool held, uint64_t now,
-                          std::vector<BodyId> selected) {
+UndoStepEdits UndoManager::begin(Session& session, std::string what, bool held, uint64_t now,
+                                 std::vector<BodyId> selected) {
   if (held && gesture_ == what && !edits_.empty()) return edits_.newest();
   gesture_ = held ? what : std::string();
   // The ticks after this one belong to a course that is left.
@@ -21,7 +21,7 @@ DeedEdits DeedDesk::begin(Session& session, std::string what, bool held, uint64_
   return edits_.begin(session, std::move(what), now, std::move(selected));
 }
 
-void DeedDesk::begin_beside(std::string what, bool held, std::function<void()> exchange) {
+void UndoManager::begin_beside(std::string what, bool held, std::function<void()> exchange) {
   const bool same = goes_on(what, held);
   gesture_ = held ? what : std::string();
   if (same) return;  // a name that is being typed
@@ -29,16 +29,16 @@ void DeedDesk::begin_beside(std::string what, bool held, std::function<void()> e
   edits_.note_beside(std::move(what), std::move(exchange));
 }
 
-bool DeedDesk::goes_on(std::string_view what, bool held) const {
+bool UndoManager::goes_on(std::string_view what, bool held) const {
   return held && gesture_ == what && edits_.last() == what;
 }
 
-void DeedDesk::drop_newest() {
+void UndoManager::drop_newest() {
   edits_.drop_newest();
   gesture_.clear();
 }
 
-std::optional<EditHistory::Back> DeedDesk::went(std::optional<EditHistory::Back> back) {
+std::optional<EditHistory::Back> UndoManager::went(std::optional<EditHistory::Back> back) {
   if (back && !back->beside) {
     other_course_ = true;
     selected_then_ = back->selected;
@@ -46,29 +46,29 @@ std::optional<EditHistory::Back> DeedDesk::went(std::optional<EditHistory::Back>
   return back;
 }
 
-std::optional<EditHistory::Back> DeedDesk::take_back(Session& session,
-                                                     std::vector<BodyId> selected) {
+std::optional<EditHistory::Back> UndoManager::take_back(Session& session,
+                                                        std::vector<BodyId> selected) {
   unsaved_.note();
   return went(edits_.undo(session, std::move(selected)));
 }
 
-std::optional<EditHistory::Back> DeedDesk::do_again(Session& session,
-                                                    std::vector<BodyId> selected) {
+std::optional<EditHistory::Back> UndoManager::do_again(Session& session,
+                                                       std::vector<BodyId> selected) {
   unsaved_.note();
   return went(edits_.redo(session, std::move(selected)));
 }
 
-void DeedDesk::finish(Session& session, bool own_thread) {
+void UndoManager::finish(Session& session, bool own_thread) {
   unsaved_.finish(session, edits_.file_edits(), own_thread);
 }
 
-void DeedDesk::see(uint64_t tick, bool jumped) {
+void UndoManager::see(uint64_t tick, bool jumped) {
   // After an undo, or on another course, the later ticks are not those seen before.
   if (jumped && std::exchange(other_course_, false)) newest_tick_ = 0;
   newest_tick_ = std::max(newest_tick_, tick);
 }
 
-void DeedDesk::select_as_then(const Frame& frame, Selection& selection) {
+void UndoManager::select_as_then(const Frame& frame, Selection& selection) {
   if (selection.empty())
     for (const BodyId id : selected_then_)
       if (find_slot(frame, id)) selection.add(id);

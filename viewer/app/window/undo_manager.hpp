@@ -14,13 +14,13 @@
 
 namespace tumble {
 
-/// Manages the user's changes to the scene (deeds): undo and redo of changes in the world, beside
-/// it, and of choices of numbers, and the unsaved work. After each change the run takes a new
-/// course, of which the latest tick seen is known.
-class DeedDesk {
+/// Manages the user's changes to the scene (undo steps): undo and redo of changes in the world,
+/// beside it, and of choices of numbers, and the unsaved work. After each change the run takes a
+/// new course, of which the latest tick seen is known.
+class UndoManager {
  public:
   /// `folder`: where unsaved work is kept; empty: nowhere.
-  explicit DeedDesk(std::filesystem::path folder) : unsaved_(std::move(folder)) {}
+  explicit UndoManager(std::filesystem::path folder) : unsaved_(std::move(folder)) {}
 
   /// To be called when another world is shown; its file is passed to unsaved().
   void forget();
@@ -31,8 +31,8 @@ class DeedDesk {
 
   /// To be called before each change. `held`: a button or key is being held, and the same change
   /// requested repeatedly meanwhile is one undo step. `now`: the tick shown.
-  DeedEdits begin(Session& session, std::string what, bool held, uint64_t now,
-                  std::vector<BodyId> selected);
+  UndoStepEdits begin(Session& session, std::string what, bool held, uint64_t now,
+                      std::vector<BodyId> selected);
   /// The same for a change that does not concern the world: see EditHistory.
   void begin_beside(std::string what, bool held, std::function<void()> exchange);
   /// Whether such a change would continue the newest undo step.

@@ -1,4 +1,4 @@
-#include "viewer/app/window/microscope_desk.hpp"
+#include "viewer/app/window/microscope_controller.hpp"
 
 #include "viewer/app/session/microscope_pair.hpp"
 
@@ -6,24 +6,24 @@
 
 namespace tumble {
 
-void MicroscopeDesk::open(std::optional<MicroscopeSetup> of_scene) {
+void MicroscopeController::open(std::optional<MicroscopeSetup> of_scene) {
   setup_ = std::move(of_scene);
   put_by_person_ = false;
 }
 
-std::optional<MicroscopeSetup> MicroscopeDesk::setup(const MicroscopeChoice& choice) const {
+std::optional<MicroscopeSetup> MicroscopeController::setup(const MicroscopeChoice& choice) const {
   std::optional<MicroscopeSetup> out = setup_;
   if (out && !choice.algorithm.empty()) out->algorithm = choice.algorithm;
   return out;
 }
 
-bool MicroscopeDesk::put(const Frame& frame, BodyId body) {
+bool MicroscopeController::put(const Frame& frame, BodyId body) {
   setup_ = find_microscope_pair(frame, body);
   put_by_person_ = setup_.has_value();
   return put_by_person_;
 }
 
-bool MicroscopeDesk::take_away() {
+bool MicroscopeController::take_away() {
   if (!std::exchange(put_by_person_, false)) return false;
   setup_.reset();
   return true;

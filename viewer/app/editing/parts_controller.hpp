@@ -14,17 +14,17 @@ void fold_part(SceneDescription& parts, const SceneEdit& edit);
 
 /// The emitters, sensors, forces and particles of the scene as its file would describe them now:
 /// those of the file, with the edits in effect.
-class PartsDesk {
+class PartsController {
  public:
   /// `live`: their ids in the world; only the simulation thread reads it.
   void open(std::shared_ptr<const SceneDescription> parts, std::shared_ptr<LiveParts> live);
   /// To be called after a change or undo.
   void note() { stale_ = true; }
   /// Takes an answer that has arrived, and sends a new query if it is outdated.
-  void update(Session& session, const std::vector<DeedEdits>& deeds);
+  void update(Session& session, const std::vector<UndoStepEdits>& undo_steps);
   /// Gives names to unnamed springs of a change; must be posted before any other job that reads its
   /// edits.
-  void name_springs(Session& session, DeedEdits edits) const;
+  void name_springs(Session& session, UndoStepEdits edits) const;
   /// Shows a change, or a removal (`gone`), before the world has executed it.
   void expect(const std::string& name, const PartDescription& part, bool gone = false);
 

@@ -1,4 +1,4 @@
-#include "viewer/app/window/comparison_desk.hpp"
+#include "viewer/app/window/comparison_controller.hpp"
 
 #include "viewer/app/verify/differences.hpp"
 #include "viewer/render/extract.hpp"
@@ -63,7 +63,8 @@ BodyId body_named(const Frame& frame, const std::string& name) {
 
 }  // namespace
 
-void ComparisonDesk::begin(Session& session, WorldChoice choice, double trail, const World* made) {
+void ComparisonController::begin(Session& session, WorldChoice choice, double trail,
+                                 const World* made) {
   opening_.reset();
   second_ = made ? std::make_shared<SecondWorld>(std::move(choice), *made)
                  : std::make_shared<SecondWorld>(std::move(choice));
@@ -73,13 +74,13 @@ void ComparisonDesk::begin(Session& session, WorldChoice choice, double trail, c
   session.set_second(second_);
 }
 
-void ComparisonDesk::open(SceneOpener open, SceneWish wish, WorldChoice choice) {
+void ComparisonController::open(SceneOpener open, OpenRequest wanted, WorldChoice choice) {
   wanted_ = std::move(choice);
   opening_ = std::make_unique<SceneLoader>();
-  opening_->start(std::move(open), std::move(wish));
+  opening_->start(std::move(open), std::move(wanted));
 }
 
-std::optional<ComparisonDesk::Opened> ComparisonDesk::take_opened() {
+std::optional<ComparisonController::Opened> ComparisonController::take_opened() {
   if (!opening_) return std::nullopt;
   auto loaded = opening_->take();
   if (!loaded) return std::nullopt;
@@ -87,19 +88,19 @@ std::optional<ComparisonDesk::Opened> ComparisonDesk::take_opened() {
   return Opened{std::move(wanted_), std::move(loaded->scene)};
 }
 
-void ComparisonDesk::end(Session& session) {
+void ComparisonController::end(Session& session) {
   session.set_second(nullptr);
   forget();
 }
 
-void ComparisonDesk::forget() {
+void ComparisonController::forget() {
   opening_.reset();
   second_.reset();
   seen_ = {};
   comparison_ = {};
 }
 
-void ComparisonDesk::update(const Frame& shown, const WorldChoice& of_a) {
+void ComparisonController::update(const Frame& shown, const WorldChoice& of_a) {
   if (!comparison()) return;
   comparison_ = {};
   comparison_.opening = opening_ != nullptr;
@@ -127,7 +128,7 @@ void ComparisonDesk::update(const Frame& shown, const WorldChoice& of_a) {
   comparison_.first_contact = seen_.first_contact;
 }
 
-std::optional<SessionView> ComparisonDesk::view(const SessionView& shown) const {
+std::optional<SessionView> ComparisonController::view(const SessionView& shown) const {
   if (!second_ || !seen_.to) return std::nullopt;
   // Between the same two ticks as A, if B has them.
   const bool beside = seen_.tick_from == shown.from->tick && seen_.tick_to == shown.to->tick;
@@ -138,8 +139,9 @@ std::optional<SessionView> ComparisonDesk::view(const SessionView& shown) const 
   return out;
 }
 
-RenderScene& ComparisonDesk::draw_beside(const SessionView& shown, const ExtractOptions& options,
-                                         ShapeMeshes& meshes, const RenderScene& picture) {
+RenderScene& ComparisonController::draw_beside(const SessionView& shown,
+                                               const ExtractOptions& options, ShapeMeshes& meshes,
+                                               const RenderScene& picture) {
   picture_.look_like(picture);
   const auto seen = view(shown);
   if (!seen) {
@@ -154,8 +156,8 @@ RenderScene& ComparisonDesk::draw_beside(const SessionView& shown, const Extract
   return picture_;
 }
 
-void ComparisonDesk::draw_ghost(const SessionView& shown, const ExtractOptions& options,
-                                ShapeMeshes& meshes, RenderScene& picture) {
+void ComparisonController::draw_ghost(const SessionView& shown, const ExtractOptions& options,
+                                      ShapeMeshes& meshes, RenderScene& picture) {
   const auto seen = view(shown);
   if (!seen) return;
   ExtractOptions bare;

@@ -1,4 +1,4 @@
-#include "viewer/app/editing/parts_desk.hpp"
+#include "viewer/app/editing/parts_controller.hpp"
 
 #include "engine/world/world.hpp"
 
@@ -32,15 +32,15 @@ void fold_part(SceneDescription& parts, const SceneEdit& edit) {
   std::visit(Fold{parts}, edit);
 }
 
-void PartsDesk::open(std::shared_ptr<const SceneDescription> parts,
-                     std::shared_ptr<LiveParts> live) {
-  *this = PartsDesk{};
+void PartsController::open(std::shared_ptr<const SceneDescription> parts,
+                           std::shared_ptr<LiveParts> live) {
+  *this = PartsController{};
   opened_ = parts ? std::move(parts) : std::make_shared<const SceneDescription>();
   now_ = opened_;
   live_ = live ? std::move(live) : std::make_shared<LiveParts>();
 }
 
-void PartsDesk::update(Session& session, const std::vector<DeedEdits>& deeds) {
+void PartsController::update(Session& session, const std::vector<UndoStepEdits>& undo_steps) {
   if (collected_.valid()) {
     if (collected_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     auto folded = std::make_shared<SceneDescription>(*opened_);
@@ -54,10 +54,10 @@ void PartsDesk::update(Session& session, const std::vector<DeedEdits>& deeds) {
   }
   if (!stale_) return;
   stale_ = false;
-  collected_ = collect_edits(session, deeds);
+  collected_ = collect_edits(session, undo_steps);
 }
 
-void PartsDesk::name_springs(Session& session, DeedEdits edits) const {
+void PartsController::name_springs(Session& session, UndoStepEdits edits) const {
   session.post([edits = std::move(edits), parts = now_, live = live_](World&) {
     for (SceneEdit& edit : *edits)
       if (auto* spring = std::get_if<AddedSpring>(&edit); spring && spring->name.empty()) {
@@ -67,7 +67,7 @@ void PartsDesk::name_springs(Session& session, DeedEdits edits) const {
   });
 }
 
-void PartsDesk::expect(const std::string& name, const PartDescription& part, bool gone) {
+void PartsController::expect(const std::string& name, const PartDescription& part, bool gone) {
   auto changed = std::make_shared<SceneDescription>(*now_);
   if (gone)
     drop_part(*changed, list_of(part), name);

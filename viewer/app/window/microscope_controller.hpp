@@ -7,7 +7,7 @@
 namespace tumble {
 
 /// What the microscope shows: what the scene asks for, or else a selected body and its neighbour.
-class MicroscopeDesk {
+class MicroscopeController {
  public:
   void open(std::optional<MicroscopeSetup> of_scene);
   bool empty() const { return !setup_; }

@@ -10,7 +10,7 @@
 namespace tumble {
 
 /// The modal question that the window asks, and the effect of each answer.
-class QuestionDesk {
+class QuestionController {
  public:
   struct Asked {
     Question question{};

@@ -15,14 +15,14 @@ struct ExtractOptions;
 class ShapeMeshes;
 
 /// Manages world B of a comparison for panels and pictures.
-class ComparisonDesk {
+class ComparisonController {
  public:
   /// Starts world B as a copy of A's present state, or as `made`, a world at its first tick.
   /// `trail`: length of the paths of bodies [s].
   void begin(Session& session, WorldChoice choice, double trail, const World* made = nullptr);
-  /// Opens world B from a scene in the background, as this wish says. The present B stays until
+  /// Opens world B from a scene in the background, as this request says. The present B stays until
   /// then.
-  void open(SceneOpener open, SceneWish wish, WorldChoice choice);
+  void open(SceneOpener open, OpenRequest wanted, WorldChoice choice);
   /// A scene that was opened, and the choice for B; returned once.
   struct Opened {
     WorldChoice choice;
