@@ -193,6 +193,77 @@ TEST_CASE("a ball bounces off a link whose hinge an armature burdens or a motor 
         }
 }
 
+TEST_CASE("an armature takes its share of a plastic hit, in whichever sub-step that is") {
+  constexpr double speed = 3, ball_mass = 0.5;
+  for (const bool ordinary : {false, true})
+    for (const double hz : {60.0, 240.0})
+      for (const double gap : {0.4, 0.41, 0.425})  // the first is 8 ticks of 1/60 s exactly
+        for (const double armature : {0.0, 0.5, 3.0}) {
+          CAPTURE(ordinary);
+          CAPTURE(hz);
+          CAPTURE(gap);
+          CAPTURE(armature);
+          JointWorld w(hz);
+          w.gravity.setZero();
+          if (ordinary) w.settings.max_substeps = w.settings.substeps;  // as in large islands
+          BodyDef d = body(box(0.5, 0.05, 0.05), Vec3::Zero(), 0);
+          d.mass = 1;
+          const uint32_t slider = w.add(d);
+          w.join(JointKind::prismatic, no_body, slider,
+                 frame_along(Vec3::Zero(), {0, 1, 0}, {1, 0, 0}));
+          JointDrives drives;
+          drives[0].armature = armature;
+          w.joints[0].drives = std::make_shared<JointDrives>(drives);
+          d = body(sphere(0.05), {0, 0.1 + gap, 0}, 0);
+          d.mass = ball_mass;
+          d.velocity = {0, -speed, 0};
+          const uint32_t ball = w.add(d);
+          for (int tick = 0; tick < 0.25 * hz; ++tick) {
+            w.step();
+            const double of_ball = w.bodies[ball].v.y(), of_slider = w.bodies[slider].v.y();
+            CHECK(ball_mass * of_ball + (1 + armature) * of_slider ==
+                  doctest::Approx(-ball_mass * speed).epsilon(1e-5));
+            CHECK(w.kinetic_energy() + 0.5 * armature * of_slider * of_slider <
+                  0.5 * ball_mass * speed * speed * (1 + 1e-5));
+          }
+          const double after = -ball_mass * speed / (ball_mass + 1 + armature);
+          CHECK(std::fabs(w.bodies[slider].v.y() - after) < 0.02 * speed);
+          CHECK(std::fabs(w.bodies[ball].v.y() - after) < 0.02 * speed);
+        }
+}
+
+TEST_CASE("a ball bounces off a rod with the inertia of the wheel to which it is geared") {
+  constexpr double speed = 3, ball_mass = 0.5, ratio = 2, x = 0.9;
+  for (const double hz : {60.0, 240.0})
+    for (const double e : {0.5, 1.0})
+      for (const double wheel_inertia : {0.01, 0.2}) {
+        CAPTURE(hz);
+        CAPTURE(e);
+        CAPTURE(wheel_inertia);
+        RodRow row(1, hz, 0, e);
+        BodyDef d;
+        d.mass = 1;
+        d.inertia = Vec3::Constant(wheel_inertia);
+        d.pose.x = {0, 0, 5};
+        const uint32_t wheel = row.add(d);
+        row.join(JointKind::revolute, no_body, wheel, {d.pose.x, Quat::Identity()});
+        row.couplings.push_back({1, 0, 0, 0, ratio, 0});
+        row.links.push_back({wheel, 0});
+        for (Joint& joint : row.joints) joint.coupled = 1;
+        d = body(sphere(0.05), {x, 0.5, 0}, 0, e);
+        d.mass = ball_mass;
+        d.velocity = {0, -speed, 0};
+        const uint32_t ball = row.add(d);
+        for (int tick = 0; tick < 0.2 * hz; ++tick) row.step();
+        const double turns = x / (inertia + c * c + ratio * ratio * wheel_inertia);
+        const double impulse = (1 + e) * speed / (1 / ball_mass + x * turns);
+        CHECK(std::fabs(row.bodies[ball].v.y() - (impulse / ball_mass - speed)) < 0.01 * speed);
+        CHECK(row.rate(0) == doctest::Approx(-impulse * turns).epsilon(0.01));
+        CHECK(row.bodies[wheel].omega.z() ==
+              doctest::Approx(-ratio * impulse * turns).epsilon(0.01));
+      }
+}
+
 TEST_CASE("a slider with an armature bounces off a wall with all of its speed") {
   for (const double armature : {0.5, 2.0, 5.0}) {
     CAPTURE(armature);

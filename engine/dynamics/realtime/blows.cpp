@@ -23,6 +23,14 @@ void for_blocks(const SolverIsland& island, const F& f) {
     for (CouplingBlock& c : coupled.couplings) f(c);
 }
 
+/// Calls f(coupling, the speed along its row).
+template <class F>
+void for_couplings(const SolverIsland& island, const F& f) {
+  for (CoupledJoints& coupled : island.coupled)
+    for (size_t k = 0; k < coupled.couplings.size(); ++k)
+      f(coupled.couplings[k], speed_along(island, coupled, k));
+}
+
 /// Calls f(point, its normal speed) for the points that bounce.
 template <class F>
 void for_bouncing(const SolverIsland& island, const F& f) {
@@ -112,6 +120,7 @@ void note_joint_speeds(const SolverIsland& island) {
     for (uint32_t i = 0; i < joint.count; ++i) joint.speeds[i] = speed_along(island, joint, i);
     for (DriveRow& d : drives_of(island, joint)) d.noted = d.v;
   }
+  for_couplings(island, [](CouplingBlock& c, double speed) { c.speed = speed; });
 }
 double taken_by_joints(const SolverIsland& island, JointPass pass) {
   double taken = 0;
@@ -122,6 +131,9 @@ double taken_by_joints(const SolverIsland& island, JointPass pass) {
       taken += drives_of(island, joint)[i - joint.kept].taken(joint.speeds[i],
                                                               speed_along(island, joint, i));
   }
+  for_couplings(island, [&](const CouplingBlock& c, double speed) {
+    taken -= 0.5 * c.total(pass) * (c.speed + speed);
+  });
   return taken;
 }
 
@@ -155,6 +167,11 @@ BlowEnergy blow_energy(const SolverIsland& island) {
       energy.square += 0.5 * d.drive->armature * change * change;
     }
   }
+  for_couplings(island, [&energy](const CouplingBlock& c, double speed) {
+    const double impulse = c.relaxing - c.before_bounces;
+    energy.linear += impulse * c.speed;
+    energy.square += 0.5 * impulse * (speed - c.speed);
+  });
   return energy;
 }
 

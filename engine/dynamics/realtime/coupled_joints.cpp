@@ -257,7 +257,7 @@ void solve_coupled(const SolverIsland& island, double hs, JointPass pass, Couple
 void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
   for (CoupledJoints& all : island.coupled) {
     for (CouplingBlock& c : all.couplings) {
-      const double impulse = pass == JointPass::relaxing ? c.relaxing : c.moving + c.correcting;
+      const double impulse = c.total(pass);
       for (size_t half = 0; half < 2; ++half) {
         if (c.block[half] == CouplingBlock::none) continue;
         const JointBlock::Line& line = c.lines[half];
@@ -272,6 +272,10 @@ void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
   }
 }
 
+double speed_along(const SolverIsland& island, const CoupledJoints& all, size_t coupling) {
+  return velocity(island, all.lines[first_coupling_row(all) + coupling]);
+}
+
 double store_couplings(const SolverContext& c, const SolverIsland& island, double hs) {
   double residual = 0;
   for (CoupledJoints& all : island.coupled)
@@ -282,8 +286,7 @@ double store_couplings(const SolverContext& c, const SolverIsland& island, doubl
       to.relaxing_force = block.relaxing / hs;
       if (block.block[0] != CouplingBlock::none) c.joints[to.a].value[to.x] = block.x.value;
       if (block.block[1] != CouplingBlock::none) c.joints[to.b].value[to.y] = block.y.value;
-      residual =
-          std::max(residual, std::fabs(velocity(island, all.lines[first_coupling_row(all) + k])));
+      residual = std::max(residual, std::fabs(speed_along(island, all, k)));
     }
   return residual;
 }

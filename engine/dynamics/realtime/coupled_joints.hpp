@@ -30,7 +30,13 @@ struct CouplingBlock {
   struct {
     double moving = 0, relaxing = 0;
   } before_blow;
+  double speed = 0;  ///< of its row, as JointBlock::speeds
   double before_bounces = 0;
+
+  /// The whole impulse before the bodies move, or after it, as JointBlock::total.
+  double total(JointPass pass) const {
+    return pass == JointPass::relaxing ? relaxing : moving + correcting;
+  }
 };
 
 /// Joints of an island that couplings connect, directly or through other joints, and these
@@ -73,6 +79,8 @@ void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass)
 void solve_coupled(const SolverIsland& island, double hs, JointPass pass, CoupledJoints& coupled);
 /// Adds the impulses of couplings to the sums of the joints.
 void sum_couplings(const SolverIsland& island, double hs, JointPass pass);
+/// Velocity along the row of one of the couplings.
+double speed_along(const SolverIsland& island, const CoupledJoints& all, size_t coupling);
 /// Returns the greatest velocity left in a row.
 double store_couplings(const SolverContext& context, const SolverIsland& island, double hs);
 

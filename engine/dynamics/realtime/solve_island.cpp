@@ -129,6 +129,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (!island.joints.empty()) solve_normals(island, hs, push_out);
     solve_rows(island, hs, push_out, false);
     if (island.joints.empty()) solve_friction_again(island);
+    if (i + 1 == n) follow_with_armatures(island, hs);
     if (measured) add_taken(JointPass::relaxing);
     sum_impulses(island);
   }

@@ -313,6 +313,18 @@ void relax_joints(const SolverIsland& island, double hs) {
   }
 }
 
+bool has_armature(const SolverIsland& island) {
+  return std::ranges::any_of(island.joints, [&island](const JointBlock& joint) {
+    return std::ranges::any_of(drives_of(island, joint),
+                               [](const DriveRow& d) { return d.drive->armature > 0; });
+  });
+}
+
+void follow_with_armatures(const SolverIsland& island, double hs) {
+  if (island.rows.empty() || !has_armature(island)) return;
+  sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
+}
+
 double store_joints(const SolverContext& c, const SolverIsland& island, double hs) {
   double residual = store_couplings(c, island, hs);
   for (JointBlock& joint : island.joints) {

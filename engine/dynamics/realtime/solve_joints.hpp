@@ -33,6 +33,15 @@ void warm_start_joints(const SolverIsland& island, double hs, JointPass pass);
 void move_onto_joints(const SolverIsland& island, double hs);
 void relax_joints(const SolverIsland& island, double hs);
 
+// An armature is as fast as its coordinate when a tick begins. Contacts that are solved after the
+// joints change the coordinate alone: at the end of a tick the armature must follow, or it would
+// get that speed for nothing in the next.
+
+/// Whether anything along a coordinate has inertia of its own.
+bool has_armature(const SolverIsland& island);
+/// To be called after the last sweep over contacts of a tick.
+void follow_with_armatures(const SolverIsland& island, double hs);
+
 // The parts of these, for islands of which only some joints are solved here.
 
 /// A range of the sweeps of a pass.

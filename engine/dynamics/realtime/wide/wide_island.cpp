@@ -79,7 +79,7 @@ SolveResiduals WideIsland::solve(const SolverContext& c, Crew& crew) {
     open_blow_books();
     for (int i = 0; i < c.settings->substeps && !stop_requested(); ++i) {
       if (i > 0) end_substep(crew, hs);
-      substep(c, crew, step, hs, i == 0);
+      substep(c, crew, step, hs, i);
     }
     bounce(c, crew, hs);
     end_substep(crew, hs);
@@ -177,13 +177,13 @@ void WideIsland::start(const SolverContext& c, Crew& crew, const WideStep& step,
 }
 
 void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& step, double hs,
-                         bool first) {
+                         int index) {
   const double push_out = c.settings->push_out_speed;
   const double before = kick_, after = hs - before;
   if (books_.open) note_blow_speeds(0);
   // Lever arms and masses of bundled contacts are those of the start of the tick; if there is
   // nothing else, the impulses of the previous sub-step change velocities as they did then.
-  if (!first && sort_ == WideSort::plain) {
+  if (index > 0 && sort_ == WideSort::plain) {
     each_share(crew, {0, simple_ / uint32_t(wide_lanes)},
                [&](WideRange r) { wide_kick_again(rows_, r, step.hs); });
   } else {
@@ -230,7 +230,16 @@ void WideIsland::substep(const SolverContext& c, Crew& crew, const WideStep& ste
     follow_limits(crew, hs);
   }
   each_colour(crew, [&](WideRange r) { wide_relax(rows_, r, step); });
+  if (index + 1 == c.settings->substeps) follow_with_armatures(crew, hs);
   if (books_.open) add_taken(JointPass::relaxing);
+}
+
+/// As in solve_joints.
+void WideIsland::follow_with_armatures(Crew& crew, double hs) {
+  if (drives_.empty() || sort_ == WideSort::joints) return;
+  for (Part& part : parts_) part.change = has_armature(rest_of(part)) ? 1 : 0;
+  if (std::ranges::any_of(parts_, [](const Part& part) { return part.change > 0; }))
+    solve_struck_joints(crew, hs, JointPass::relaxing, 0);
 }
 
 void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {

@@ -97,10 +97,11 @@ class WideIsland {
 
   void prepare(const SolverContext& context, Crew& crew, const WideStep& step, double hs);
   void substep(const SolverContext& context, Crew& crew, const WideStep& step, double hs,
-               bool first);
+               int index);
   void start(const SolverContext& context, Crew& crew, const WideStep& step, double h);
   void find_free_speeds(Crew& crew, double hs);
   void follow_limits(Crew& crew, double hs);
+  void follow_with_armatures(Crew& crew, double hs);
   void solve_struck_joints(Crew& crew, double hs, JointPass pass, double least);
   void bounce(const SolverContext& context, Crew& crew, double hs);
   void bounce_in_turn(const SolverContext& context, Crew& crew, double hs);
