@@ -9,8 +9,11 @@
 #include "engine/scene/robot_scene.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+
+#include <unistd.h>
 
 namespace tumble {
 namespace fs = std::filesystem;
@@ -36,6 +39,19 @@ CatalogueEntry entry_of(const fs::path& file) {
     out.category = text_of(*root, "category");
   }
   return out;
+}
+
+/// An error if something is at this path, or may be, that cannot be reached or read.
+Status may_be_read(const fs::path& path) {
+  std::error_code error;
+  const auto type = fs::status(path, error);
+  const bool nothing = type.type() == fs::file_type::not_found;
+  if (!nothing && !error && fs::is_regular_file(type) && ::access(path.c_str(), R_OK) != 0)
+    error = std::error_code(errno, std::generic_category());
+  if (nothing || !error) return {};
+  const bool forbidden = error == std::errc::permission_denied;
+  return Error{ErrorCode::io, "cannot be read: " + error.message(), path.string(),
+               forbidden ? "ask its owner for the right to read it, and to enter its folders" : ""};
 }
 
 }  // namespace
@@ -64,9 +80,14 @@ Result<fs::path> resolve_scene(const std::string& name_or_path) {
   const char* cure = "name a scene of `tumble scenes`, or a file";
   const fs::path given(name_or_path);
   std::error_code error;
+  if (name_or_path == "-")
+    return Error{ErrorCode::not_found, "scenes are not read from standard input", name_or_path,
+                 "write it into a file, and name that"};
+  if (const Status open = may_be_read(given); !open) return open.error();
   if (fs::is_regular_file(given, error)) return is_pack_file(given) ? unpack(given) : given;
-  if (fs::is_directory(given, error) && given.has_parent_path())
-    return Error{ErrorCode::not_found, "this is a folder, not a scene", name_or_path, {}};
+  const Error folder{ErrorCode::not_found, "this is a folder, not a scene", name_or_path,
+                     "name a file in it"};
+  if (fs::is_directory(given, error) && given.has_parent_path()) return folder;
   if (given.has_parent_path() && fs::exists(given, error))
     return Error{ErrorCode::not_found, "this is a device or a pipe, not a file", name_or_path,
                  cure};
@@ -76,6 +97,7 @@ Result<fs::path> resolve_scene(const std::string& name_or_path) {
         if (auto found = find_resource(fs::path(folder) / file);
             found && fs::is_regular_file(*found, error))
           return found;
+    if (fs::is_directory(given, error)) return folder;
     if (name_or_path.find('.') == std::string::npos) {
       std::vector<std::string> names;
       for (const CatalogueEntry& e : scene_catalogue()) names.push_back(e.name);

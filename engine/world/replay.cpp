@@ -55,7 +55,8 @@ Bytes save_replay(const World& world) {
 }
 
 Result<Replay> Replay::read(std::span<const std::byte> bytes) {
-  const Error damaged{ErrorCode::parse, "the replay log is damaged", "replay", {}};
+  const Error damaged{ErrorCode::parse, "this is no replay, or a damaged one", "replay",
+                      "`tumble simulate --replay FILE` records one"};
   Replay out;
   ByteReader in(bytes);
   in.begin_section("replay");

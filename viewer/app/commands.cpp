@@ -4,6 +4,7 @@
 #include "viewer/app/scenes/scene_files.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -69,11 +70,28 @@ std::string cure_of_extras(const CLI::App& command, std::span<const std::string>
   return {};
 }
 
+/// Advice for a file that is taken for an option because of its name.
+std::string cure_of_dashes(std::span<const std::string> arguments) {
+  for (const std::string& word : arguments)
+    if (std::error_code none;
+        word.starts_with('-') && word != "-" && std::filesystem::exists(word, none))
+      return fmt::format("the file {0} is named as ./{0}; ", word);
+  return {};
+}
+
+/// Reports that stdout could not be written, with the cause if it is known.
+int report_stdout(const std::error_code& cause) {
+  return report({ErrorCode::io, "cannot write" + (cause ? ": " + cause.message() : std::string()),
+                 "stdout", "see whether its file has room, or what reads it still runs"},
+                exit_cannot_write);
+}
+
 /// Flushes stdout and returns `code`, or the code for an output that could not be written.
 int flushed(int code) {
+  errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return code;
-  const int unwritten = report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
+  const int unwritten = report_stdout(std::error_code(errno, std::generic_category()));
   return code == exit_ok || code == exit_negative ? unwritten : code;
 }
 
@@ -82,9 +100,9 @@ int flushed(int code) {
 int run_action(const CommandAction& action) {
   try {
     return flushed(action());
-  } catch (const std::system_error&) {  // thrown by fmt::print
+  } catch (const std::system_error& fault) {  // thrown by fmt::print
     if (!std::ferror(stdout)) throw;
-    return report({ErrorCode::io, "cannot write", "stdout", {}}, exit_cannot_write);
+    return report_stdout(fault.code());
   }
 }
 
@@ -136,7 +154,8 @@ int run_command_line(std::span<const std::string> arguments) {
     const auto used = app.get_subcommands();
     const std::string help = used.empty() ? "tumble" : "tumble " + used.front()->get_name();
     const bool extras = dynamic_cast<const CLI::ExtrasError*>(&fault) && !used.empty();
-    const std::string cure = extras ? cure_of_extras(*used.front(), arguments) : "";
+    const std::string cure =
+        cure_of_dashes(arguments) + (extras ? cure_of_extras(*used.front(), arguments) : "");
     return report(
         {ErrorCode::invalid_argument, fault.what(), {}, cure + "see `" + help + " --help`"},
         exit_usage);

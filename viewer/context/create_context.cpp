@@ -81,13 +81,17 @@ std::vector<std::string> candidates(std::string_view name, std::vector<ContextAt
   return out;
 }
 
+Error unknown_context(std::string_view name) {
+  return Error{ErrorCode::invalid_argument, fmt::format("unknown context '{}'", name), "--context",
+               fmt::format("known: {}", fmt::join(context_names(), ", "))};
+}
+
 Made make(const std::string& name) {
   if (name == "surfaceless") return make_egl_surfaceless_context();
   if (name == "osmesa") return make_osmesa_context();
   if (name == "window") return make_hidden_window();
   if (const auto index = device_index(name)) return make_egl_device_context(*index);
-  return Error{ErrorCode::invalid_argument, "unknown context '" + name + "'", "--context",
-               fmt::format("known: {}", fmt::join(context_names(), ", "))};
+  return unknown_context(name);
 }
 
 Error no_context(std::string_view name, const std::vector<ContextAttempt>& attempts) {
@@ -106,6 +110,13 @@ const std::vector<std::string>& context_names() {
   static const std::vector<std::string> names = {"auto",        "egl",    "egl:N", "egl:NAME",
                                                  "surfaceless", "osmesa", "window"};
   return names;
+}
+
+Status check_context_name(std::string_view name) {
+  const auto& names = context_names();
+  const bool device = device_index(name) || !device_word(name).empty();
+  if (device || std::find(names.begin(), names.end(), name) != names.end()) return {};
+  return unknown_context(name);
 }
 
 Result<ContextChoice> create_context(std::string_view name, const LogSink& log) {

@@ -54,6 +54,10 @@ struct ContextChoice {
 /// attempt with its cause and cure.
 Result<ContextChoice> create_context(std::string_view name, const LogSink& log = {});
 
+/// An error for a name of no form that create_context understands; whether the device of an
+/// egl:NAME exists is only known by looking.
+Status check_context_name(std::string_view name);
+
 /// Names that create_context understands, for help and messages.
 const std::vector<std::string>& context_names();
 

@@ -237,7 +237,7 @@ TEST_CASE("bad words and scenes without particles are 2, an unwritable folder 5"
   const ProgramRun both =
       exported("a", {"--steps", "1", "--states", exported.out("x").string() + "/../a/"});
   CHECK(both.code == 2);
-  CHECK(mentions(both.err, "two different folders"));
+  CHECK(mentions(both.err, "a file or folder for each"));
   CHECK_FALSE(std::filesystem::exists(exported.out("a")));
   const std::string bare = write_text(exported.folder / "bare.json", small_scene());
   const auto to = exported.out("b").string();

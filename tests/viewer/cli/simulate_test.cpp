@@ -338,6 +338,57 @@ TEST_CASE("Ctrl-C and SIGTERM end a long run with 130 and 143 and whole files") 
   }
 }
 
+TEST_CASE("an interrupted run says where, and its replay and contacts end there") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const std::string csv = (folder / "long.csv").string(), replay = (folder / "run.bin").string(),
+                    contacts = (folder / "contacts.json").string();
+  ProgramOptions options;
+  options.signal_when = [&] { return files_of(folder.path()).size() > 1 ? SIGTERM : 0; };
+  const ProgramRun run = tumble_program({"simulate", scene, "--seconds", "100000", "--csv", csv,
+                                         "--replay", replay, "--contacts", contacts},
+                                        options);
+  CHECK(run.code == 143);
+  const std::string said = "stopped at tick ";
+  REQUIRE_MESSAGE(mentions(run.err, said), run.err);
+  const int tick = std::stoi(run.err.substr(run.err.find(said) + said.size()));
+  CHECK(nlohmann::json::parse(read_all(contacts)).is_object());
+  const ProgramRun again = tumble_program({"simulate", scene, "--play", replay, "--json"});
+  CHECK_MESSAGE(again.code == 0, again.err);
+  CHECK(nlohmann::json::parse(again.out)["ticks"] == tick);
+}
+
+TEST_CASE("a run that breaks down leaves the replay that leads there") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const std::string replay = (folder / "run.bin").string();
+  const std::vector<std::string> line = {"simulate", scene,   "--steps",
+                                         "50",       "--set", "settings.gravity=[1e9,-1e9,0]"};
+  auto recorded = line;
+  recorded.insert(recorded.end(), {"--replay", replay});
+  const ProgramRun run = tumble_program(recorded);
+  CHECK(run.code == 6);
+  REQUIRE(std::filesystem::exists(replay));
+  CHECK_MESSAGE(mentions(run.err, "run.bin"), run.err);
+  auto played = line;
+  played.insert(played.end(), {"--play", replay});
+  CHECK(tumble_program(played).code == 6);
+}
+
+TEST_CASE("how long a run is to be is asked only of scenes that are there, and once") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", small_scene());
+  const ProgramRun both = tumble_program({"simulate", scene, "--steps", "5", "--seconds", "2"});
+  CHECK(both.code == 2);
+  CHECK_MESSAGE(mentions(both.err, "--seconds and --steps"), both.err);
+  const ProgramRun misspelt = tumble_program({"simulate", "towr"});
+  CHECK(misspelt.code == 3);
+  CHECK_MESSAGE(mentions(misspelt.err, "tower"), misspelt.err);
+  const ProgramRun exponent = tumble_program({"simulate", scene, "--seconds", "5e-1", "--json"});
+  CHECK(exponent.code == 0);
+  CHECK(nlohmann::json::parse(exponent.out)["ticks"] == 30);
+}
+
 TEST_CASE("--convergence ends with Ctrl-C within its first run") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());

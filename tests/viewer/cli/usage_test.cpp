@@ -87,6 +87,8 @@ TEST_CASE("bad usage is 2, with a cure on stderr and nothing on stdout") {
       {"render", scene, "-o", out, "--frames", "1", "--size", "99999x99999"},
       {"render", scene, "-o", out, "--frames", "1", "--overlay", "nonsense"},
       {"render", scene, "-o", out, "--frames", "1", "--threads", "-3"},
+      {"render", scene, "-o", out, "--frames", "1", "--context", "foo"},
+      {"mesh", "x.obj", "--render", out + ".png", "--context", "foo"},
       {"simulate", scene},
       {"simulate", scene, "--seconds", "1", "--steps", "2"},
       {"simulate", scene, "--steps", "-2"},
@@ -241,4 +243,37 @@ TEST_CASE("a simulation that breaks down is 6 and names the body") {
   CHECK(run.code == 6);
   CHECK(run.out.empty());
   CHECK(mentions(run.err, "body '"));
+}
+
+TEST_CASE("a path that cannot be opened is told with its cause") {
+  TempFolder folder;
+  const std::string loop = (folder / "loop.json").string();
+  std::filesystem::create_symlink("loop.json", loop);
+  std::filesystem::create_directory(folder / "robots");
+  const auto says = [&](const std::vector<std::string>& arguments, int code,
+                        const std::string& words) {
+    const ProgramRun run = tumble_program(arguments);
+    CHECK_MESSAGE(run.code == code, run.err);
+    CHECK_MESSAGE(mentions(run.err, words), run.err);
+  };
+  says({"check", loop}, 3, "Too many levels of symbolic links");
+  says({"check", (folder / "robots").string()}, 3, "this is a folder");
+  says({"check", "-"}, 3, "standard input");
+  const std::string notes = write_text(folder / "notes.json", small_scene());
+  says({"simulate", notes, "--play", notes}, 3, "this is no replay");
+  says({"simulate", notes, "--play", notes}, 3, "tumble simulate --replay");
+  ProgramOptions full;
+  full.stdout_to = "/dev/full";
+  CHECK(mentions(tumble_program({"scenes"}, full).err, "No space left on device"));
+  // Relative names, as they are typed.
+  const std::string program = (std::filesystem::path(TUMBLE_BINARY_DIR) / "bin/tumble").string();
+  write_text(folder / "-dash.json", small_scene());
+  const auto typed = [&](const std::string& file) {
+    return run_program("/bin/sh", {"-c", "cd '" + folder.path().string() + "' && '" + program +
+                                             "' check " + file + " 2>&1"});
+  };
+  CHECK(typed("-dash.json").code == 2);
+  CHECK_MESSAGE(mentions(typed("-dash.json").out, "./-dash.json"), typed("-dash.json").out);
+  CHECK(typed("./-dash.json").code == 0);
+  CHECK_MESSAGE(mentions(typed("robots").out, "this is a folder"), typed("robots").out);
 }

@@ -130,3 +130,39 @@ TEST_CASE("bodies that stand in other slots are compared by name, and a contact 
   CHECK(body["differences"].back()["path"] == "bodies.ball.mass");
   CHECK(body["differences"].back()["b"] == "3");
 }
+
+TEST_CASE("numbers out of range are told with their option") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  for (const char* option : {"--seconds", "--tolerance"})
+    for (const char* value : {"nan", "-1", "inf", "1e12"}) {
+      const ProgramRun run = tumble_program({"verify", scene, option, value});
+      CAPTURE(value);
+      CHECK(run.code == 2);
+      CHECK_MESSAGE(mentions(run.err, option), run.err);
+      CHECK_MESSAGE(mentions(run.err, std::string("'") + value + "'"), run.err);
+    }
+}
+
+TEST_CASE("of a path that is given twice the last value counts, in the list too") {
+  TempFolder folder;
+  const std::string scene = write_text(folder / "s.json", falling());
+  const auto found = answer({scene, "--a", "bodies.ball.mass=3", "--a", "bodies.ball.mass=524",
+                             "--b", "bodies.ball.mass=7", "--seconds", "0.1"},
+                            0);
+  REQUIRE(found["differences"].size() == 1);
+  CHECK(found["differences"][0]["a"] == "524");
+  CHECK(found["differences"][0]["b"] == "7");
+}
+
+TEST_CASE("what differs in velocities alone has no place where it is worst") {
+  TempFolder folder;
+  // It turns, and goes nowhere.
+  const std::string scene = write_text(folder / "s.json", R"({"tumble_scene": 1,
+    "settings": {"gravity": [0, 0, 0]}, "bodies": {
+    "ball": {"shape": {"type": "sphere", "radius": 0.1}, "angular_velocity": [0, 1, 0]}}})");
+  const ProgramRun run = tumble_program(
+      {"verify", scene, "--b", "bodies.ball.angular_velocity=[0,2,0]", "--seconds", "0.1"});
+  CHECK(run.code == 1);
+  CHECK_MESSAGE(!mentions(run.out, "worst:"), run.out);
+}

@@ -4,6 +4,7 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/bench/report.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/simulate/outputs.hpp"
@@ -104,6 +105,9 @@ int run_bench(const BenchLine& line) {
   const auto settings = settings_with(line.overrides);
   if (!settings) return report(settings.error(), exit_usage);
 
+  const FileRoles files =
+      FileRoles().writes("--json", line.json == "-" ? "" : line.json).writes("--trace", line.trace);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
   const StopSignal stop;  // before there are files that an early Ctrl-C would leave behind
   StageTrace trace(line.trace);
   FileWriter json(line.json == "-" ? "" : line.json);
@@ -156,7 +160,7 @@ CommandAction declare_bench(Options& options) {
       .one_each();
   options.flag("--json{-}", line->json,
                "one JSON object on stdout; --json=FILE: into a file, beside the table");
-  options.value("--trace", line->trace, "times per stage as a Chrome trace");
+  options.value("--trace", line->trace, "times per stage as a Chrome trace").not_empty();
   options.footer(
       workload_list() +
       "\nSteps of 1/60 s, nothing sleeps. Times are of World::step() in milliseconds; cpu is\n"

@@ -1,6 +1,7 @@
 #include "viewer/capture/compare.hpp"
 
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/capture/frame_clock.hpp"
 
@@ -48,9 +49,9 @@ Result<double> share_of(std::string text) {
 std::string_view kind_text(const FileComparison& file) {
   switch (file.kind) {
     case FileComparison::Kind::only_expected:
-      return "missing in the actual folder";
+      return "only the expected one is there";
     case FileComparison::Kind::only_actual:
-      return "missing in the expected folder";
+      return "only the actual one is there";
     case FileComparison::Kind::unreadable:
       return "cannot be read";
     case FileComparison::Kind::compared:
@@ -121,6 +122,9 @@ int run_compare(const CompareLine& line) {
   options.diff = line.diff;
   options.bless = line.bless;
 
+  const FileRoles files =
+      FileRoles().reads(line.expected).reads(line.actual).writes("--diff", line.diff);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
   const CompareOutcome outcome = compare_paths(line.expected, line.actual, options);
   if (const auto* failure = std::get_if<CompareFailure>(&outcome))
     return report(failure->error, failure->cannot_write ? exit_cannot_write : exit_bad_input);
@@ -149,8 +153,10 @@ CommandAction declare_compare(Options& options) {
              "the largest group of touching such pixels must be smaller than this")
       .natural()
       .shows_default();
-  options.value("--diff", line->diff,
-                "write a picture of the differences (a folder when folders are compared)");
+  options
+      .value("--diff", line->diff,
+             "write a picture of the differences (a folder when folders are compared)")
+      .not_empty();
   options.flag("--bless", line->bless, "make the actual pictures the expected ones");
   options.flag("--json", line->json, "one JSON object on stdout");
   options.footer(

@@ -1,5 +1,6 @@
 #include "engine/core/stop.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
 #include "viewer/app/mesh/pieces_file.hpp"
@@ -118,6 +119,13 @@ int run_mesh(MeshLine& line) {
   if (Status s = parse_picture_size(line.size, picture.width, picture.height); !s)
     return report(s.error(), exit_usage);
   if (Status s = check_line(line); !s) return report(s.error(), exit_usage);
+  if (Status s = check_context_name(picture.context); !s) return report(s.error(), exit_usage);
+  const FileRoles files = FileRoles()
+                              .reads(line.file)
+                              .writes("--out", line.pieces.file)
+                              .writes("--render", line.render)
+                              .writes("--slices", line.field.slices);
+  if (Status s = files.apart(); !s) return report(s.error(), exit_usage);
   ImportOptions options;
   options.scale = line.scale;
   options.weld = line.weld;
@@ -233,8 +241,10 @@ CommandAction declare_mesh(Options& options) {
       .between(1e-9, 1e9)
       .shows_default();
   options.flag("--json", line->json, "one JSON object on stdout");
-  const Option render = options.value("--render", line->render,
-                                      "draw it into this PNG file, which is replaced if it exists");
+  const Option render = options
+                            .value("--render", line->render,
+                                   "draw it into this PNG file, which is replaced if it exists")
+                            .not_empty();
   const Option kind =
       options.value("--hierarchy", line->picture.hierarchy, "volumes of this kind around it")
           .one_of(drawn_hierarchies())

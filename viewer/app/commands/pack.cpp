@@ -1,4 +1,5 @@
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/packed_scene.hpp"
 #include "viewer/capture/atomic_file.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 struct PackLine {
   std::string scene, file, replay;
-  bool force = false, json = false;
+  bool no_replay = false, force = false, json = false;
 };
 
 int run_pack(const PackLine& line) {
@@ -32,7 +33,12 @@ int run_pack(const PackLine& line) {
   SceneRequest request;
   request.scene = line.scene;
   request.threads = 1;
+  request.replay.none = line.no_replay;
   request.log = stderr_log(LogLevel::warning);
+  FileRoles roles;
+  roles.reads(request).reads(line.replay).writes("the pack", line.file);
+  if (const auto scene = read_scene_request(request)) roles.reads(*scene);
+  if (const Status apart = roles.apart(); !apart) return report(apart.error(), exit_usage);
   std::optional<NamedReplay> replay;
   if (!line.replay.empty()) {
     auto bytes = read_file(line.replay);
@@ -65,9 +71,15 @@ CommandAction declare_pack(Options& options) {
       .required();
   options.value("file,-o,--output", line->file,
                 "the pack to write, e.g. my.tumble; needed, in either way");
-  options.value("--replay", line->replay,
-                "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
-                "window by Ctrl+F9; it is run first");
+  const Option replay =
+      options
+          .value("--replay", line->replay,
+                 "with a replay of this scene, as `tumble simulate --replay` writes them, or the "
+                 "window by Ctrl+F9; it is run first; a pack keeps its own unless one is given")
+          .not_empty();
+  options
+      .flag("--no-replay", line->no_replay, "leave out the replay of a pack that is packed again")
+      .excludes(replay);
   options.flag("--force", line->force, "overwrite a file that exists");
   options.flag("--json", line->json, "one JSON object on stdout");
   options.footer(

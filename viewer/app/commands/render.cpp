@@ -2,6 +2,7 @@
 #include "engine/scene/pack/pack.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
@@ -68,7 +69,8 @@ Status parse_plan(const RenderLine& line, const SavedStates* states, FramesFile&
   }
   if (auto size = parse_picture_size(line.size, plan.width, plan.height); !size) return size;
   const bool by_seconds = !line.seconds.empty();
-  if (line.frames && by_seconds) return no_frames();
+  if (line.frames && by_seconds)
+    return usage("--frames and --seconds both say how many frames", "give one of the two");
   if (line.frames) {
     plan.frames_wanted = *line.frames;
   } else if (!by_seconds) {
@@ -128,12 +130,12 @@ void print_result(const RenderLine& line, const FramesFile& plan) {
   }
   if (line.quiet) return;
   fmt::print(stderr,
-             "{} frames in {:.2f} s ({:.1f} frames/s), the first on disk after {:.2f} s\n"
+             "{} frame{} in {:.2f} s ({:.1f} frames/s), the first on disk after {:.2f} s\n"
              "ms per frame: simulate {:.1f}, extract {:.1f}, draw {:.1f}, read back {:.1f}, wait "
              "for encoder {:.1f}; beside it encode {:.1f}\n",
-             t.frames, t.total, t.total > 0 ? n / t.total : 0, t.first_frame, 1e3 * t.simulate / n,
-             1e3 * t.extract / n, 1e3 * t.draw / n, 1e3 * t.read_back / n, 1e3 * t.wait / n,
-             1e3 * t.encode / n);
+             t.frames, t.frames == 1 ? "" : "s", t.total, t.total > 0 ? n / t.total : 0,
+             t.first_frame, 1e3 * t.simulate / n, 1e3 * t.extract / n, 1e3 * t.draw / n,
+             1e3 * t.read_back / n, 1e3 * t.wait / n, 1e3 * t.encode / n);
   if (!line.video.empty())
     fmt::print(stderr, "a video of them is {}\n", line.video);
   else
@@ -252,6 +254,11 @@ Status check_outputs(const RenderLine& line) {
 
 int run_render(RenderLine& line) {
   FramesFile plan;
+  const FileRoles files =
+      FileRoles().reads(line.request).writes("-o", line.folder).writes("--video", line.video);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
+  if (const Status known = check_context_name(line.context); !known)
+    return report(known.error(), exit_usage);
   if (auto good = check_outputs(line); !good)
     return report(good.error(),
                   good.error().code == ErrorCode::io ? exit_cannot_write : exit_usage);
@@ -352,9 +359,12 @@ CommandAction declare_render(Options& options) {
       .value("scene", line->request.scene,
              "scene, robot or mesh file, or a name of `tumble scenes`")
       .required();
-  options.value("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json");
-  options.value("--video", line->video,
-                "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that");
+  options.value("-o,--output", line->folder, "folder for frame_000000.png ... and frames.json")
+      .not_empty();
+  options
+      .value("--video", line->video,
+             "a video by the program ffmpeg (.mp4, .webm, .gif ...), without -o only that")
+      .not_empty();
   options.value("--frames", line->frames, "number of frames").natural();
   options.value("--seconds", line->seconds,
                 "instead: simulated time; round(seconds * fps) frames; with a replay neither is "
@@ -379,7 +389,7 @@ CommandAction declare_render(Options& options) {
       "--states", line->states,
       "folder of `tumble simulate --states`: drawn without simulating, by default all there is; "
       "--set changes looks, lights and cameras");
-  states.excludes(stepper);
+  states.not_empty().excludes(stepper);
   declare_replay(options, line->request.replay);
   options.flag("--resume", line->resume, "go on with the frames of an interrupted run");
   options.flag("--force", line->force, "overwrite frames that exist");

@@ -5,12 +5,14 @@
 #include "engine/world/replay.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/commands/simulate_export.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/quantities.hpp"
 #include "viewer/app/scenes/saved_states.hpp"
 #include "viewer/app/scenes/scene_assertions.hpp"
+#include "viewer/app/scenes/scene_files.hpp"
 #include "viewer/app/scenes/scene_replay.hpp"
 #include "viewer/app/simulate/certificates_file.hpp"
 #include "viewer/app/simulate/convergence.hpp"
@@ -220,7 +222,12 @@ void print_summary(const World& world, const RunResult& run, bool asserted, bool
 Result<uint64_t> ticks_of(const SimulateLine& line, TickRate rate,
                           const ReplayPlayer* player = nullptr) {
   if (player && !line.steps && line.seconds.empty()) return player->last_tick();
-  if (line.steps.has_value() == !line.seconds.empty())
+  if (line.steps && !line.seconds.empty())
+    return Error{ErrorCode::invalid_argument,
+                 "--seconds and --steps both say how long",
+                 {},
+                 "give one of the two"};
+  if (!line.steps && line.seconds.empty())
     return Error{ErrorCode::invalid_argument, "how long?", {}, "give --seconds S or --steps N"};
   if (line.steps) return *line.steps;
   const auto seconds = parse_fraction(line.seconds, "--seconds", true);
@@ -306,9 +313,40 @@ bool wants_beginning(const SimulateLine& line, const SceneAssertions* assertions
          (!line.contacts.empty() && !asks_certificates(line.contacts));
 }
 
+/// The files of a run; those that its scene refers to are added once it is read.
+FileRoles files_of(const SimulateLine& line) {
+  return FileRoles()
+      .reads(line.request)
+      .writes("--csv", line.csv)
+      .writes("--contacts", line.contacts)
+      .writes("--joints", line.joints)
+      .writes("--trace", line.trace)
+      .writes("--replay", line.replay)
+      .writes("--export", line.particles.folder)
+      .writes("--states", line.particles.states);
+}
+
+/// Writes what tells how a run came to its last good tick, however it ended.
+Status write_replay(const SimulateLine& line, const World& world) {
+  if (line.replay.empty()) return {};
+  return write_file(line.replay, save_replay(world));
+}
+
+/// Writes the certificates of the contacts at the end.
+std::optional<int> write_end(const SimulateLine& line, const World& world) {
+  if (!asks_certificates(line.contacts)) return std::nullopt;
+  const Status written = write_certificates(world, line.contacts);
+  if (written) return std::nullopt;
+  return report(written.error(),
+                written.error().code == ErrorCode::io ? exit_cannot_write : exit_broken_down);
+}
+
 int run_simulate(SimulateLine& line) {
   const auto every = hash_interval(line.hash);
   if (!every) return report(every.error(), exit_usage);
+  // A scene that does not exist is told before its length is asked for.
+  if (const auto scene = find_scene(line.request.scene); !scene)
+    return report(scene.error(), exit_code_of_scene(scene.error()));
   if (const auto ticks = ticks_of(line, {}); !ticks && !may_play(line))
     return report(ticks.error(), exit_usage);
   if (line.json && !line.hash.empty())
@@ -318,6 +356,8 @@ int run_simulate(SimulateLine& line) {
                    "leave out --hash: the object has state_hash"},
                   exit_usage);
 
+  FileRoles files = files_of(line);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
   if (std::error_code none;
       !line.replay.empty() && !line.particles.force && std::filesystem::exists(line.replay, none))
     return report({ErrorCode::io, "is there already, and would be lost", line.replay,
@@ -327,6 +367,8 @@ int run_simulate(SimulateLine& line) {
   line.request.log = stderr_log(LogLevel::warning);
   auto scene = load_scene_and_world(line.request);
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
+  if (const Status apart = files.reads(*scene->built.description).apart(); !apart)
+    return report(apart.error(), exit_usage);
   World& world = *scene->built.world;
   const std::string start =
       line.particles.states.empty() ? "" : start_of_run(world, TUMBLE_VERSION);
@@ -363,17 +405,19 @@ int run_simulate(SimulateLine& line) {
       return report(s.error(), exit_code_of_export(s.error()));
   const RunResult run =
       run_ticks(world, ticks, *every, stop, of_scene.get(), player->get(), outputs);
+  if (stop.requested()) world.stop_with(nullptr);  // what is written of the end is whole
   if (auto s = outputs.commit(); !s) return report(s.error(), exit_code_of_export(s.error()));
-  if (!run.step) return report(run.step.error(), exit_broken_down);
-  if (stop.requested()) return stop.exit_code();
-  if (!line.replay.empty()) {
-    const Bytes bytes = save_replay(world);
-    if (auto s = write_file(line.replay, bytes); !s) return report(s.error(), exit_cannot_write);
+  const Status kept = write_replay(line, world);
+  if (!run.step) {
+    if (!line.replay.empty() && kept)
+      fmt::print(stderr, "the {} ticks before it are in {}\n", world.tick(), line.replay);
+    return report(run.step.error(), exit_broken_down);
   }
-  if (certified) {
-    if (auto s = write_certificates(world, line.contacts); !s)
-      return report(s.error(),
-                    s.error().code == ErrorCode::io ? exit_cannot_write : exit_broken_down);
+  if (!kept) return report(kept.error(), exit_cannot_write);
+  if (const auto code = write_end(line, world)) return *code;
+  if (stop.requested()) {
+    fmt::print(stderr, "stopped at tick {} of {}, {:.4g} s\n", world.tick(), ticks, world.time());
+    return stop.exit_code();
   }
 
   bool holds = judge_asserts(*asserts, line.asserts, scene->built);
@@ -402,27 +446,32 @@ CommandAction declare_simulate(Options& options) {
   auto line = std::make_shared<SimulateLine>();
   options.value("scene", line->request.scene, "scene file, or a name of `tumble scenes`")
       .required();
-  options.value("--seconds", line->seconds,
-                "simulated time, e.g. 2.5; with a replay that of the replay, unless given");
+  options
+      .value("--seconds", line->seconds,
+             "simulated time, e.g. 2.5; with a replay that of the replay, unless given")
+      .not_empty();
   options.value("--steps", line->steps, "instead: number of ticks").natural();
   options.value("--threads", line->request.threads, "0: one per core; results do not depend on it")
       .between(0, 1024);
   options.value("--stepper", line->request.stepper, "instead of the scene's");
   options.value("--set", line->request.overrides, "path=value, e.g. bodies.ball.mass=3").one_each();
-  const Option csv = options.value(
-      "--csv", line->csv,
-      "energies, momenta, contacts, work of every cause and times per stage, a row a tick");
+  const auto file = [&](const char* name, std::string& to, const char* doc) {
+    return options.value(name, to, doc).not_empty();
+  };
+  const Option csv =
+      file("--csv", line->csv,
+           "energies, momenta, contacts, work of every cause and times per stage, a row a tick");
   const Option contacts =
-      options.value("--contacts", line->contacts,
-                    "every contact of every tick as CSV; a .json file gets the certificates of "
-                    "the contacts at the end");
-  const Option joints =
-      options.value("--joints", line->joints,
-                    "force and torque of every joint as CSV: at each tick, and the "
-                    "means over the tick before");
-  const Option trace = options.value("--trace", line->trace, "times per stage as a Chrome trace");
-  options.value("--replay", line->replay,
-                "the run as a replay, for `tumble pack --replay`: what was done, and the hash");
+      file("--contacts", line->contacts,
+           "every contact of every tick as CSV; a .json file gets the certificates of "
+           "the contacts at the end");
+  const Option joints = file("--joints", line->joints,
+                             "force and torque of every joint as CSV: at each tick, and the "
+                             "means over the tick before");
+  const Option trace = file("--trace", line->trace, "times per stage as a Chrome trace");
+  file("--replay", line->replay,
+       "the run as a replay, for `tumble pack --replay`: what was done, and the hash; up to where "
+       "it was interrupted or broke down");
   declare_replay(options, line->request.replay);
   const Option hash =
       options.flag("--hash{final}", line->hash,

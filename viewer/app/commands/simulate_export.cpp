@@ -4,7 +4,6 @@
 #include "viewer/app/options.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -28,20 +27,15 @@ Result<double> cell_of(const std::string& text) {
   return cell->value();
 }
 
-/// Canonical path of a folder, whether or not it exists.
-std::filesystem::path one_name(const std::string& folder) {
-  std::error_code code;
-  const auto whole = std::filesystem::absolute(std::filesystem::path(folder) / "", code);
-  return std::filesystem::weakly_canonical(whole, code) / "";
-}
-
 }  // namespace
 
 std::pair<Option, Option> declare_export(Options& options, ExportLine& line) {
-  const Option folder = options.value(
-      "--export", line.folder,
-      "folder for the particles, a file for each system and frame, e.g. water_000000.ply, and "
-      "particles.json");
+  const Option folder =
+      options
+          .value("--export", line.folder,
+                 "folder for the particles, a file for each system and frame, e.g. "
+                 "water_000000.ply, and particles.json")
+          .not_empty();
   options
       .value("--format", line.format,
              "of these files: ply (binary), or vtu (VTK XML, with a .pvd for each system)")
@@ -49,9 +43,11 @@ std::pair<Option, Option> declare_export(Options& options, ExportLine& line) {
       .shows_default()
       .needs(folder);
   const Option states =
-      options.value("--states", line.states,
-                    "folder for the states that `tumble render --states` draws frames from without "
-                    "simulating, and states.json");
+      options
+          .value("--states", line.states,
+                 "folder for the states that `tumble render --states` draws frames from without "
+                 "simulating, and states.json")
+          .not_empty();
   options
       .value("--fps", line.fps,
              "frames of particles, or that states are for, per simulated second: 30, 23.976 or "
@@ -71,10 +67,6 @@ std::pair<Option, Option> declare_export(Options& options, ExportLine& line) {
 
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
                                              const LoadedScene& scene, uint64_t ticks) {
-  if (!line.folder.empty() && !line.states.empty() &&
-      one_name(line.folder) == one_name(line.states))
-    return Error{ErrorCode::invalid_argument, "--export and --states write into the same folder",
-                 line.states, "give two different folders"};
   const auto fps = parse_fraction(line.fps, "--fps");
   if (!fps) return fps.error();
   ParticleExportOptions out;

@@ -16,7 +16,7 @@ struct ExportLine {
 std::pair<Option, Option> declare_export(Options& options, ExportLine& line);
 
 /// The options for a run of `ticks` ticks: round(seconds * fps) frames, but at least the first.
-/// Error `invalid_argument` for an invalid rate, or if particles and states have the same folder.
+/// Error `invalid_argument` for an invalid rate.
 Result<ParticleExportOptions> export_options(const ExportLine& line, const SceneRequest& request,
                                              const LoadedScene& scene, uint64_t ticks);
 

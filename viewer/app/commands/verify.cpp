@@ -1,5 +1,6 @@
 #include "engine/world/world.hpp"
 #include "viewer/app/command.hpp"
+#include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/verify/differences.hpp"
@@ -146,8 +147,18 @@ void print_result(const Comparison& found, const std::vector<WorldDifference>& d
   if (d.angle > 0 || d.speed > 0)
     fmt::print("       bodies by {:.3g} rad, velocities by {:.3g} m/s\n", d.angle, d.speed);
   if (found.first_contact) fmt::print("first contact: {}\n", found.first_contact->what);
-  fmt::print("worst: {} at {} s, {}\n", found.worst.what, found.worst.time,
-             apart_words(found.worst.distance));
+  if (!found.worst.what.empty())  // else all are in the same places
+    fmt::print("worst: {} at {} s, {}\n", found.worst.what, found.worst.time,
+               apart_words(found.worst.distance));
+}
+
+/// The row of a path; a new one has nothing but what the scene says. Of a path that is given
+/// several times the last value holds, as it does in the world.
+WorldDifference& difference_at(std::vector<WorldDifference>& rows, const std::string& path) {
+  const auto known = std::ranges::find(rows, path, &WorldDifference::path);
+  if (known != rows.end()) return *known;
+  const std::string scene = "as the scene has it";
+  return rows.emplace_back(WorldDifference{path, scene, scene, scene, scene});
 }
 
 /// Overrides of bodies and the like are listed as typed; of settings, numbers and machine the
@@ -162,8 +173,7 @@ std::vector<WorldDifference> all_differences(const VerifyLine& line, const Side&
     for (const std::string& one : *own) {
       if (is_chosen(one)) continue;
       const std::string path = one.substr(0, one.find('=')), value = one.substr(path.size() + 1);
-      const std::string scene = "as the scene has it";
-      WorldDifference& d = out.emplace_back(WorldDifference{path, scene, scene, scene, scene});
+      WorldDifference& d = difference_at(out, path);
       (which == 'a' ? d.value_a : d.value_b) = value;
       (which == 'a' ? d.words_a : d.words_b) = value;
     }
@@ -171,13 +181,17 @@ std::vector<WorldDifference> all_differences(const VerifyLine& line, const Side&
 }
 
 int run_verify(const VerifyLine& line) {
-  if (!(line.seconds >= 0) || !std::isfinite(line.seconds) || !(line.tolerance >= 0))
-    return report({ErrorCode::invalid_argument, "a time or tolerance below zero", {}, {}},
-                  exit_usage);
+  SceneRequest common;
+  common.scene = line.scene;
+  FileRoles files;
+  files.reads(common).writes("--csv", line.csv);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
   const auto a = load_side(line, line.a, "--a", line.threads_a);
   if (!a) return report(a.error(), exit_code_of_scene(a.error()));
   const auto b = load_side(line, line.b, "--b", line.threads_b);
   if (!b) return report(b.error(), exit_code_of_scene(b.error()));
+  for (const auto* side : {&*a, &*b}) files.reads(*side->scene.built.description);
+  if (const Status apart = files.apart(); !apart) return report(apart.error(), exit_usage);
   const StopSignal stop;
   FileWriter csv(line.csv);
   csv.append("time,distance,angle,speed,same_bits,what\n");
@@ -220,12 +234,13 @@ CommandAction declare_verify(Options& options) {
   options.value("--threads-b", line->threads_b, "of world B; 0: one per core")
       .shows_default()
       .between(0, 1024);
-  options.value("--seconds", line->seconds, "simulated time").shows_default();
+  options.value("--seconds", line->seconds, "simulated time").between(0.0, 1e6).shows_default();
   options
       .value("--tolerance", line->tolerance,
              "how far apart the two may be [m]; 0: they must have the same bits")
+      .between(0.0, 1e6)
       .shows_default();
-  options.value("--csv", line->csv, "how far they are apart at every common tick");
+  options.value("--csv", line->csv, "how far they are apart at every common tick").not_empty();
   options.flag("--json", line->json, "one JSON object on stdout");
   options.footer(
       "Steps the same scene twice, side by side. Exit code 1 where the two differ, with the "

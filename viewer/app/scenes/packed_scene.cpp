@@ -3,8 +3,12 @@
 #include "engine/core/stop.hpp"
 #include "engine/world/replay.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/app/scenes/scene_replay.hpp"
+#include "viewer/capture/atomic_file.hpp"
 
+#include <optional>
 #include <span>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -30,15 +34,32 @@ Status holds_in(World& world, const NamedReplay& named) {
   }
 }
 
+/// The replay of the pack that the request names, unless it is not wanted or the scene's text is
+/// another; nothing if there is none.
+Result<std::optional<NamedReplay>> own_replay(const SceneRequest& request,
+                                              const LoadedScene& scene) {
+  const auto file = request.replay.none || request.text ? std::filesystem::path()
+                                                        : replay_in_pack(request, scene);
+  if (file.empty()) return std::optional<NamedReplay>();
+  auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return std::optional(NamedReplay{*std::move(bytes), request.scene});
+}
+
 }  // namespace
 
 Result<std::vector<PackFile>> packed_scene(const SceneRequest& request, const NamedReplay* replay) {
   auto scene = load_scene_and_world(request);
   if (!scene) return scene.error();
+  const auto own =
+      replay ? Result<std::optional<NamedReplay>>(std::nullopt) : own_replay(request, *scene);
+  if (!own) return own.error();
+  if (*own) replay = &**own;
   if (replay)
     if (const Status holds = holds_in(*scene->built.world, *replay); !holds) {
       Error error = holds.error();
       error.place = replay->place;
+      if (*own) error.cure += (error.cure.empty() ? "" : ", or ") + std::string("give --no-replay");
       return error;
     }
   auto files = pack_files(request.scene, request.text);

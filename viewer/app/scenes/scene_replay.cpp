@@ -12,9 +12,7 @@
 #include <fmt/format.h>
 
 namespace tumble {
-namespace {
 
-/// Path of the replay in the scene's pack; empty if there is none.
 std::filesystem::path replay_in_pack(const SceneRequest& request, const LoadedScene& scene) {
   const std::filesystem::path file = scene.file.parent_path() / pack_replay_name;
   std::error_code none;
@@ -22,8 +20,6 @@ std::filesystem::path replay_in_pack(const SceneRequest& request, const LoadedSc
              ? file
              : std::filesystem::path();
 }
-
-}  // namespace
 
 Status ReplayPlayer::follow(World& world, bool anew) {
   if (world.tick() > replay_.last_tick()) return {};  // the replay has ended
@@ -55,6 +51,7 @@ void declare_replay(Options& options, ReplayRequest& wanted) {
       "--play", wanted.file,
       "a replay of this scene, as `tumble simulate --replay` writes them, is played; a pack's own "
       "is played without being asked for, unless another is given here");
+  file.not_empty();
   options.flag("--no-replay", wanted.none, "the replay of a pack is not played").excludes(file);
 }
 

@@ -3,6 +3,7 @@
 #include "viewer/app/scenes/load_scene.hpp"
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ class ReplayPlayer {
 /// Declares --play and --no-replay.
 void declare_replay(Options& options, ReplayRequest& wanted);
 
+/// Path of the replay in the scene's pack; empty if there is none.
+std::filesystem::path replay_in_pack(const SceneRequest& request, const LoadedScene& scene);
 /// The replay to play with a loaded scene: the file that the request names, otherwise the replay of
 /// its pack; null if there is none, or none is wanted. The commands of the first tick have been
 /// executed. Errors: the replay cannot be read, or begins differently from the scene.

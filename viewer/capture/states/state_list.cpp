@@ -99,9 +99,14 @@ Status write_state_list(const std::filesystem::path& folder, const StateList& li
 
 Result<StateList> read_state_list(const std::filesystem::path& folder) {
   const auto path = folder / state_list_name;
+  const std::string cure = "`tumble simulate SCENE --states DIR` saves states into a folder";
   const auto text = read_file(path);
-  if (!text) return text.error();
-  const Error bad{ErrorCode::parse, "not the list of saved states", path.string(), {}};
+  if (!text) {
+    Error error = text.error();
+    error.cure = cure;
+    return error;
+  }
+  const Error bad{ErrorCode::parse, "not the list of saved states", path.string(), cure};
   const StatesJson json = StatesJson::parse(*text, nullptr, false);
   if (!json.is_object()) return bad;
   try {
