@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -193,6 +194,40 @@ TEST_CASE("a ball bounces off a link whose hinge an armature burdens or a motor 
         }
 }
 
+TEST_CASE("the work of a limit is what its impact took from the arm, wherever the hinge is") {
+  constexpr double rate = 3, arm = 1, about_centre = 0.1, about_hinge = about_centre + arm * arm;
+  for (const bool ordinary : {false, true})
+    for (const double hz : {60.0, 240.0})
+      for (const double e : {0.0, 0.5, 1.0}) {
+        CAPTURE(ordinary);
+        CAPTURE(hz);
+        CAPTURE(e);
+        JointWorld w(hz);
+        w.gravity.setZero();
+        if (ordinary) w.settings.max_substeps = w.settings.substeps;  // as in large islands
+        BodyDef d;
+        d.mass = 1;
+        d.inertia = Vec3::Constant(about_centre);
+        d.pose.x = {0, -arm, 0};
+        d.velocity = {rate * arm, 0, 0};
+        d.angular_velocity = {0, 0, rate};
+        const uint32_t slot = w.add(d);
+        w.join(JointKind::revolute, no_body, slot, {Vec3::Zero(), Quat::Identity()});
+        JointDrives drives;
+        drives[0].limits.upper = std::numbers::pi / 6;
+        drives[0].limits.restitution = e;
+        w.joints[0].drives = std::make_shared<JointDrives>(drives);
+        double work = 0;
+        for (int tick = 0; tick < 0.25 * hz; ++tick) {
+          w.step();
+          work += w.solver.joint_pushes()[0].limits;
+        }
+        const double energy = 0.5 * about_hinge * rate * rate;
+        CHECK(std::fabs(work + (1 - e * e) * energy) < 0.01 * energy);
+        CHECK(std::fabs(w.kinetic_energy() - e * e * energy) < 0.01 * energy);
+      }
+}
+
 TEST_CASE("an armature takes its share of a plastic hit, in whichever sub-step that is") {
   constexpr double speed = 3, ball_mass = 0.5;
   for (const bool ordinary : {false, true})
@@ -227,8 +262,9 @@ TEST_CASE("an armature takes its share of a plastic hit, in whichever sub-step t
                   0.5 * ball_mass * speed * speed * (1 + 1e-5));
           }
           const double after = -ball_mass * speed / (ball_mass + 1 + armature);
-          CHECK(std::fabs(w.bodies[slider].v.y() - after) < 0.02 * speed);
-          CHECK(std::fabs(w.bodies[ball].v.y() - after) < 0.02 * speed);
+          CHECK(std::fabs(w.bodies[slider].v.y() - after) < 0.01 * speed);
+          // The next sub-step starts from the impulse of the hit, and does not take all of it back.
+          CHECK(std::fabs(w.bodies[ball].v.y() - after) < 0.035 * speed);
         }
 }
 

@@ -41,8 +41,8 @@ bool bounces(const SolverIsland& island);
 void note_speeds(const SolverIsland& island, double share);
 /// Energy that these impulses took since note_speeds() [J].
 double taken_by_contacts(const SolverIsland& island);
-/// The same for joints and couplings: of kept rows, with all of their impulses; of coordinates, what
-/// their parts took (DriveRow::taken).
+/// The same for joints and couplings: of kept rows, with all of their impulses; of coordinates,
+/// what their parts took (DriveRow::taken).
 void note_joint_speeds(const SolverIsland& island);
 double taken_by_joints(const SolverIsland& island, JointPass pass);
 

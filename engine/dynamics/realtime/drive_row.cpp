@@ -184,12 +184,16 @@ double DriveRow::taken(double first, double last) const {
          0.5 * drive->armature * (v - noted) * (v + noted - 2 * held_rate());
 }
 
-void DriveRow::add_up() {
-  const double mean = 0.5 * (before + v);
+void DriveRow::add_up(JointPass pass) {
+  const double mean = 0.5 * (before + v), of_limits = shares[lower] + shares[upper];
   motor_impulse += shares[motor];
   motor_work += shares[motor] * mean;
   friction_work += shares[friction] * mean;
-  limit_work += (shares[lower] + shares[upper]) * mean;
+  if (pass == JointPass::moving) entered = before;
+  if (!drive->limits.hard())
+    limit_work += of_limits * mean;
+  else if (pass == JointPass::relaxing)
+    limit_work += (held_lower + held_upper + of_limits) * 0.5 * (entered + v);
 }
 
 }  // namespace tumble

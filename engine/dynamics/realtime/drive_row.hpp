@@ -43,8 +43,9 @@ struct DriveRow {
   double noted = 0;       ///< v before a pass, or before an impact
 
   // Results of the moving pass that the relaxing pass needs.
-  double moved = 0;  ///< velocity with which the bodies moved
-  Shares springs{};  ///< impulses of springs alone, without dampers and bounds
+  double moved = 0;    ///< velocity with which the bodies moved
+  double entered = 0;  ///< velocity along the coordinate before any of its impulses
+  Shares springs{};    ///< impulses of springs alone, without dampers and bounds
   double bounce_lower = 0, bounce_upper = 0;  ///< speed after an impact on the limit; 0: no impact
   double held_lower = 0, held_upper = 0;      ///< impulses of the limits
   /// Impulse of a bouncing limit at the last blow_change().
@@ -76,8 +77,10 @@ struct DriveRow {
   double taken(double first, double last) const;
   /// Whether a limit bounces in the relaxing pass.
   bool bounces() const { return bounce_lower > 0 || bounce_upper > 0; }
-  /// Adds impulses and work of a pass to the sums; to be called after either pass.
-  void add_up();
+  /// Adds impulses and work of a pass to the sums; to be called after either pass. The work of a
+  /// hard limit is that of its impulses in both passes at once: its impact falls into both, and in
+  /// the first of them soft constraints keep a part of the speed that the impact takes.
+  void add_up(JointPass pass);
 
  private:
   void set_moving(double hs);

@@ -186,7 +186,7 @@ void sum_joints(const SolverIsland& island, double hs, JointPass pass) {
   for (JointBlock& joint : island.joints) {
     joint.add(push_of(joint, [&](uint32_t i) { return joint.total(i, pass); }));
     for (DriveRow& d : drives_of(island, joint)) {
-      d.add_up();
+      d.add_up(pass);
       if (pass == JointPass::moving)
         d.end_moving(hs, island.kick);
       else
