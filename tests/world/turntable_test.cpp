@@ -15,10 +15,14 @@ TEST_CASE("realtime: a ball at rest on a turning table stays there, turning slow
     table.type = BodyType::kinematic;
     table.angular_velocity = {0, rate, 0};
     table.shapes[0].material.friction = 1;
+    table.shapes[0].material.rolling_friction = 0;
+    table.shapes[0].material.torsional_friction = 0;
     w.add(table);
     BodyDef ball = TestWorld::sphere_def({at, radius, 0}, radius);
     ball.angular_velocity = {rate * at / radius, 0, 0};
     ball.shapes[0].material.friction = 1;
+    ball.shapes[0].material.rolling_friction = 0;
+    ball.shapes[0].material.torsional_friction = 0;
     const BodyId b = w.add(ball);
     w.run(1);
     CHECK(w.body(b).v.norm() < 2e-3 * rate * at);

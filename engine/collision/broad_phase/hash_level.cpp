@@ -123,7 +123,8 @@ void HashLevel::pairs_of_slots(size_t first_slot, size_t last_slot, PairCollecto
     };
     for_slots(slot + 1, 1, keep);
     for (const int64_t row : rows) for_slots(slot + row - 1, 3, keep);
-    for (uint32_t i = first; i < last && !stop_requested(); ++i) {
+    for (uint32_t i = first; i < last; ++i) {
+      if (stop_requested()) return;
       const PackedBounds a = set_.bounds[i];
       const uint32_t id = set_.ids[i];
       out.test(a, id, set_, i + 1, last);

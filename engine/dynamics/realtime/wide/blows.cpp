@@ -108,7 +108,8 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
     for (Part& part : parts_) part.change = 0;
     with_rest([&](const SolverIsland&) {
       for (Part& part : parts_)
-        if (part.struck) part.change = apply_restitution(c, rest_of(part));
+        if (part.struck)
+          part.change = apply_restitution(c, rest_of(part), turn == 0 || has_joints());
     });
     bounce_bundles(crew);
     if (!read_blow_changes()) break;
