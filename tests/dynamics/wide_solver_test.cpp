@@ -2,14 +2,11 @@
 // of the colours; conservation of momentum; closed forms of sliding, bouncing and rolling; the same
 // bytes for every instruction set and number of threads.
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
-#include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/dynamics/realtime/wide/colouring.hpp"
 #include "engine/dynamics/realtime/wide/wide_island.hpp"
 #include "tests/dynamics/piles.hpp"
 
 #include <algorithm>
-#include <set>
-#include <vector>
 
 #include <hwy/targets.h>
 
@@ -104,26 +101,9 @@ struct ScalarTick {
       solve_rows(all, hs, push_out, false);
       sum_impulses(all);
     }
-    bounce(w, context, all);
+    apply_restitution(context, all);
     store_rows(context, all, hs);
     store_bodies(context, all);
-  }
-
- private:
-  /// Each island by itself, until its points have their speed.
-  void bounce(RigidWorld& w, const SolverContext& context, const SolverIsland& all) {
-    build_islands(w.bodies, w.contacts, w.links, w.h, w.islands);
-    for (const Island& island : w.islands.islands) {
-      const std::set<uint32_t> sources(w.islands.contacts.begin() + island.contact_begin,
-                                       w.islands.contacts.begin() + island.contact_end);
-      std::vector<ContactRow> own;
-      for (const ContactRow& row : rows)
-        if (sources.contains(row.source)) own.push_back(row);
-      SolverIsland part = all;
-      part.rows = own;
-      for (int turn = 0; turn < tolerances::most_bounce_turns; ++turn)
-        if (apply_restitution(context, part) < tolerances::bounce_error) break;
-    }
   }
 };
 

@@ -197,11 +197,6 @@ void refresh_spinning_rows(const SolverContext& c, const SolverIsland& island) {
       const Vec3 rb = pose_b.direction(from.anchor_b) - round_b;
       p.ra = ra + a.turn * ra + round_a;
       p.rb = rb + b.turn * rb + round_b;
-      // Where a round body meets a flat one the point of contact stays below the round one.
-      const Vec3 moved = (b.dx + b.turn * rb) - (a.dx + a.turn * ra);
-      const Vec3 along = moved - row.n.dot(moved) * row.n;
-      if (row.rounding_b > 0 && row.rounding_a == 0) p.ra += along;
-      if (row.rounding_a > 0 && row.rounding_b == 0) p.rb -= along;
       // solve_rows adds n.(turn r) with the new lever arms; corrected so that the sum stays that of
       // the old ones.
       p.gap = from.gap + row.n.dot(b.turn * (rb + round_b - p.rb) - a.turn * (ra + round_a - p.ra));

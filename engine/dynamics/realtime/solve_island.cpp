@@ -10,22 +10,12 @@
 namespace tumble {
 namespace {
 
-/// Sweeps over the points that bounce until each has its speed. One sweep would leave those of one
-/// face at different speeds, and a box that falls flat would turn. Returns whether anything
-/// bounced.
-bool bounce_contacts(const SolverContext& c, const SolverIsland& island) {
-  double change = apply_restitution(c, island);
-  const bool bounced = change > 0;
-  for (int turn = 1; change >= tolerances::bounce_error && turn < tolerances::most_bounce_turns;
-       ++turn)
-    change = apply_restitution(c, island, false);
-  return bounced;
-}
-
-/// Alternates restitution and sweeps over joints, so that the impact spreads through the mechanism,
-/// and limits its energy to `taken`. Returns whether anything bounced.
+/// Alternates restitution and sweeps over joints until all points that bounce have their speed and
+/// the impact has spread through the mechanism, and limits its energy to `taken`. One sweep would
+/// leave the points of one face at different speeds, and a box that falls flat would turn; without
+/// the limit a body that is caught between two walls, each of which is to be left, would gain speed
+/// with each sweep. Returns whether anything bounced.
 bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
-  if (island.joints.empty()) return bounce_contacts(c, island);
   note_speeds(island, 1);
   note_joint_speeds(island);
   remember_velocities(island);
@@ -94,7 +84,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   prepare_rows(c, island, hs);
   prepare_springs(c, island);
   prepare_joints(c, island, hs);
-  const bool measured = !island.joints.empty() && bounces(island);
+  const bool measured = bounces(island);
   double taken = 0;
   const auto note_pass = [&](double share) {
     note_speeds(island, share);
@@ -133,7 +123,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (measured) add_taken(JointPass::relaxing);
     sum_impulses(island);
   }
-  end_substep(island, hs, bounce(c, island, hs, taken));
+  end_substep(island, hs, measured && bounce(c, island, hs, taken));
   store_springs(c, island);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};

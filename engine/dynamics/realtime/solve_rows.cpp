@@ -198,10 +198,9 @@ double bounce_limit(double mass, double v, double energy) {
 
 }  // namespace
 
-double apply_restitution(const SolverContext& c, const SolverIsland& island, bool with_spinning) {
+double apply_restitution(const SolverContext& c, const SolverIsland& island) {
   double most = 0;
   for (const ContactRow& row : island.rows) {
-    if (row.spins && !with_spinning) continue;
     SolverBody& a = island.bodies[row.a];
     SolverBody& b = island.bodies[row.b];
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {

@@ -170,11 +170,9 @@ void sum_impulses(const SolverIsland& island);
 /// Applies restitution. Between bodies that turn fast it gives a pair no more energy than it lost
 /// in the tick: the approach was measured at the start, and the point that touches may be slower.
 /// Returns the greatest change, as a share of the wanted speed; 0 if nothing bounced. Other points
-/// and joints may remove a part of it, so that it is repeated; impulses of restitution are then
-/// reduced again where they were too large. `with_spinning`: also between bodies that turn fast.
-/// Without joints these are swept once, as nothing bounds their energy over several sweeps.
-double apply_restitution(const SolverContext& context, const SolverIsland& island,
-                         bool with_spinning = true);
+/// and joints may remove a part of it, so that it is repeated in turn with these; only then are
+/// impulses of restitution reduced again.
+double apply_restitution(const SolverContext& context, const SolverIsland& island);
 
 /// Writes the impulses back to the contacts; returns the greatest approach speed at a pressed
 /// point.

@@ -99,8 +99,8 @@ void WideIsland::end_substep(Crew& crew, double hs) {
   for (Part& part : parts_) part.remembered = part.blown = false;
 }
 
-/// Alternates restitution and sweeps over joints, as in precise islands, in each island until all
-/// points that bounce have their speed and the impact has spread through the mechanism.
+/// Alternates restitution and sweeps over joints, as in precise islands, in each island until its
+/// impact has spread through the mechanism.
 void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
   for (Part& part : parts_) part.struck = true;
   if (books_.open) remember_before_blow();
@@ -108,13 +108,12 @@ void WideIsland::bounce_in_turn(const SolverContext& c, Crew& crew, double hs) {
     for (Part& part : parts_) part.change = 0;
     with_rest([&](const SolverIsland&) {
       for (Part& part : parts_)
-        if (part.struck)
-          part.change = apply_restitution(c, rest_of(part), turn == 0 || has_joints());
+        if (part.struck) part.change = apply_restitution(c, rest_of(part));
     });
     bounce_bundles(crew);
     if (!read_blow_changes()) break;
     remember([](const Part& part) { return part.change > 0 && !part.remembered; });
-    if (has_joints()) solve_struck_joints(crew, hs, JointPass::relaxing, 0);
+    solve_struck_joints(crew, hs, JointPass::relaxing, 0);
     for (Part& part : parts_) {
       if (!(part.change > 0)) continue;
       part.blown = true;

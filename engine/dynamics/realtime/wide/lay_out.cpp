@@ -190,7 +190,8 @@ void WideIsland::part_rest(std::vector<Row>& rows, WideRange Part::*range) {
 }
 
 void WideIsland::part(const IslandSet& islands, std::span<const uint32_t> which) {
-  parts_.assign(which.size(), {});
+  parts_.assign(has_joints() ? which.size() : 0, {});
+  if (!has_joints()) return;
   islands_.assign(slots_.size(), no_place);
   for (uint32_t k = 0; k < which.size(); ++k) {
     const Island& island = islands.islands[which[k]];

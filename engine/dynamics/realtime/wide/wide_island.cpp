@@ -247,7 +247,9 @@ void WideIsland::bounce(const SolverContext& c, Crew& crew, double hs) {
     rows_.rebounds.assign(rows_.points.size(), {});
     rows_.blow_changes.assign(rows_.contacts.size(), {});
   }
-  bounce_in_turn(c, crew, hs);
+  if (sort_ == WideSort::jointed_bouncing) return bounce_in_turn(c, crew, hs);
+  with_rest([&](const SolverIsland& rest) { apply_restitution(c, rest); });
+  bounce_bundles(crew);
 }
 
 void WideIsland::bounce_bundles(Crew& crew) {

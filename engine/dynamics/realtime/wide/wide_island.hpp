@@ -44,8 +44,7 @@ class WideIsland {
     uint32_t first_point = 0, count = 0;
     uint32_t turning = WideContact::no_turning;  ///< index of its WideTurning
   };
-  /// One of the islands: its range of the rest, and how an impact spreads through it, by contacts
-  /// and joints. That is
+  /// One of the islands: its range of the rest, and how an impact spreads through it. That is
   /// continued for as long as it changes something in this island, however long it takes in others.
   struct Part {
     WideRange rows, joints;  ///< ranges of the rest
@@ -193,7 +192,7 @@ class WideIsland {
   uint32_t bundled_points_ = 0, turning_bundles_ = 0;
   size_t points_ = 0;
 
-  std::vector<Part> parts_;        ///< by island
+  std::vector<Part> parts_;        ///< by island; empty without joints
   std::vector<uint32_t> islands_;  ///< by body: its part; none if it is in no island
   BlowBooks books_;
   std::vector<uint32_t> rest_of_;      ///< by body: its index in the rest
