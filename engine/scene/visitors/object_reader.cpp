@@ -60,9 +60,10 @@ void ObjectReader::list(const ListRef& values, const Parameter& p) {
   if (!array) return c_.fault(*n, path, "must be an array of objects, got " + brief(*n));
   // Whoever writes it means that nothing is drawn.
   if (n->items.empty() && values.type->item == &struct_type<DrawnDescription>())
-    return c_.fault(*n, path,
-                    "is empty, so that the shapes would be drawn: leave it out, or hide the body by "
-                    "\"look\": { \"visible\": false }");
+    return c_.fault(
+        *n, path,
+        "is empty, so that the shapes would be drawn: leave it out, or hide the body by "
+        "\"look\": { \"visible\": false }");
   values.type->reserve(values.list, n->items.size());
   for (size_t i = 0; i < n->items.size(); ++i)
     read_object(c_, n->items[i], path + "[" + std::to_string(i) + "]", values.append());

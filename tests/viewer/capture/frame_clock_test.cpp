@@ -75,9 +75,14 @@ TEST_CASE("numbers are read as fractions, exactly") {
   CHECK(*parse_fraction("1.25E+1", "--fps") == Fraction{25, 2});
   CHECK(*parse_fraction("3e1/1.001", "--fps") == Fraction{30000, 1001});
   CHECK(*parse_fraction("0e99", "--seconds", true) == Fraction{0, 1});
-  for (const char* bad : {"", "-1", "0", "abc", "1e", "e3", "1e+-3", "1e1.5", "1e13", "1e-13",
-                          "1e999999999", "1e99999999999", "1e3e3", "1/0", "1.2.3", "nan", "inf", ".", "1/",
-                          "/2", "99999999999999999999", " 1"})
+  for (const char* bad : {"",      "-1",          "0",
+                          "abc",   "1e",          "e3",
+                          "1e+-3", "1e1.5",       "1e13",
+                          "1e-13", "1e999999999", "1e99999999999",
+                          "1e3e3", "1/0",         "1.2.3",
+                          "nan",   "inf",         ".",
+                          "1/",    "/2",          "99999999999999999999",
+                          " 1"})
     CHECK_MESSAGE(!parse_fraction(bad, "--fps").ok(), bad);
   const auto fine = parse_fraction("31.622776601683793", "--fps");
   REQUIRE_FALSE(fine.ok());

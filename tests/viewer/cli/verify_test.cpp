@@ -147,8 +147,8 @@ TEST_CASE("numbers out of range are told with their option") {
 TEST_CASE("of a path that is given twice the last value counts, in the list too") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", falling());
-  const auto found = answer({scene, "--a", "bodies.ball.mass=3", "--a", "bodies.ball.mass=4",
-                             "--b", "bodies.ball.mass=8", "--seconds", "0.1"},
+  const auto found = answer({scene, "--a", "bodies.ball.mass=3", "--a", "bodies.ball.mass=4", "--b",
+                             "bodies.ball.mass=8", "--seconds", "0.1"},
                             0);
   REQUIRE(found["differences"].size() == 1);
   CHECK(found["differences"][0]["a"] == "4");
