@@ -148,7 +148,7 @@ TEST_CASE("/dev/stdout is what stdout goes to, also where that is a file") {
   TempFolder folder;
   const std::string scene = write_text(folder / "s.json", small_scene());
   ProgramOptions options;
-  options.stdout_to = folder / "out";
+  options.stdout_to = write_text(folder / "out", "");
   // By the file's own name, which is the same and risks no device where the test has all rights.
   REQUIRE(tumble_program(
               {"simulate", scene, "--steps", "2", "--hash", "--csv", options.stdout_to.string()},

@@ -150,9 +150,14 @@ TEST_CASE("of a path that is given twice the last value counts, in the list too"
   const auto found = answer({scene, "--a", "bodies.ball.mass=3", "--a", "bodies.ball.mass=4", "--b",
                              "bodies.ball.mass=8", "--seconds", "0.1"},
                             0);
-  REQUIRE(found["differences"].size() == 1);
-  CHECK(found["differences"][0]["a"] == "4");
-  CHECK(found["differences"][0]["b"] == "8");
+  int rows = 0;
+  for (const auto& row : found["differences"]) {
+    if (row["path"] != "bodies.ball.mass") continue;  // the two sides have other threads, too
+    ++rows;
+    CHECK(row["a"] == "4");
+    CHECK(row["b"] == "8");
+  }
+  CHECK(rows == 1);
 }
 
 TEST_CASE("what differs in velocities alone has no place where it is worst") {
