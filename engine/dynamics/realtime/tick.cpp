@@ -131,7 +131,8 @@ void RealtimeTick::set_courses(double t) {
   }
 }
 
-/// The whole tick of all movable bodies in equal parts; the pairs of the first part are known.
+/// The whole tick of all movable bodies in equal parts. The pairs of the first part are known, but
+/// where bodies on courses have another velocity in it than in the tick.
 Status RealtimeTick::in_parts(int parts) {
   const RealtimeSettings tuning = part_settings(settings, parts);
   for (int part = 0; part < parts; ++part) {
