@@ -185,6 +185,10 @@ TEST_CASE("files that are not there or not meshes") {
   check_refused(folder.write("notes.txt", "hello"), "type 'txt' are not read");
   check_refused(folder.write("bare", "hello"), "without extension");
   check_refused(folder.write("noise.stl", std::string(300, '\x80')), "noise.stl");
+  check_refused(folder.write("short.stl", "no solid"), "is no STL file");
+  check_refused(folder.write("cut.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) +
+                                            std::string(50, '\0')),
+                "a binary one of 2 triangles has 184 bytes, not 134");
   check_refused(folder.write("text.ply", "hello"), "starts with 'ply'");
   check_refused(folder.write("text.off", "hello\n"), "starts with 'OFF'");
   check_refused(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), "points.obj");

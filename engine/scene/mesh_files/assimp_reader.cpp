@@ -2,6 +2,7 @@
 #include "engine/scene/mesh_files/limited_reader.hpp"
 #include "engine/scene/mesh_files/polygon_file.hpp"
 
+#include <array>
 #include <fstream>
 #include <new>
 
@@ -131,6 +132,35 @@ Result<PolygonFile> read_gltf(const std::filesystem::path& file) {
                  file.string(),
                  "files are read by the ending of their names: name it by its format"};
   return read_with_assimp(file);
+}
+
+/// A text file begins with `solid`. A binary one has a header of 80 bytes, the number of its
+/// triangles, and 50 bytes for each; one that was cut short is told by that.
+Result<PolygonFile> read_stl(const std::filesystem::path& file) {
+  if (const Status ok = check_mesh_file(file); !ok) return ok.error();
+  constexpr size_t header = 80, before_triangles = header + sizeof(uint32_t), triangle = 50;
+  std::ifstream in(file, std::ios::binary);
+  std::array<unsigned char, before_triangles> start{};
+  in.read(reinterpret_cast<char*>(start.data()), std::streamsize(start.size()));
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), size_t(in.gcount()));
+  std::error_code error;
+  const uint64_t size = std::filesystem::file_size(file, error);
+  uint64_t triangles = 0;  // little endian
+  for (size_t byte = sizeof(uint32_t); byte-- > 0;)
+    triangles = triangles << 8 | start[header + byte];
+  const uint64_t whole = before_triangles + triangle * triangles;
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_text = first != std::string_view::npos && text.substr(first).starts_with("solid");
+  if (is_text || size == whole) return read_with_assimp(file);
+  if (size < before_triangles)
+    return mesh_file_fault(file,
+                           fmt::format("is no STL file: it does not start with 'solid', and a "
+                                       "binary one has at least {} bytes",
+                                       before_triangles));
+  return mesh_file_fault(file,
+                         fmt::format("is no whole STL file: it does not start with 'solid', and "
+                                     "a binary one of {} triangles has {} bytes, not {}",
+                                     triangles, whole, size));
 }
 
 }  // namespace tumble

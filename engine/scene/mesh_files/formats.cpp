@@ -21,7 +21,7 @@ const std::vector<MeshFormat>& all_mesh_formats() {
       {"OFF", {"off"}, read_off},
       {"PLY", {"ply"}, read_ply},
       {"Quake II", {"md2"}, read_with_assimp},
-      {"STL", {"stl"}, read_with_assimp},
+      {"STL", {"stl"}, read_stl},
       {"X3D", {"x3d"}, read_with_assimp},
   };
   return formats;

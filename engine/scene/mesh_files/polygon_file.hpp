@@ -49,6 +49,7 @@ Result<PolygonFile> read_ply(const std::filesystem::path& file);
 Result<PolygonFile> read_off(const std::filesystem::path& file);
 Result<PolygonFile> read_collada(const std::filesystem::path& file);
 Result<PolygonFile> read_gltf(const std::filesystem::path& file);
+Result<PolygonFile> read_stl(const std::filesystem::path& file);
 Result<PolygonFile> read_with_assimp(const std::filesystem::path& file);
 
 }  // namespace tumble

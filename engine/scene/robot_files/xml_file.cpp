@@ -97,8 +97,10 @@ std::optional<XmlElement> parse_xml(const std::string& text, const std::string& 
   document.Parse(text.data(), text.size());
   const tinyxml2::XMLElement* root = document.Error() ? nullptr : document.RootElement();
   if (!root) {
-    log.fault({file, document.ErrorLineNum()},
-              document.Error() ? "not well-formed XML: " + cause(document) : "has no element");
+    log.fault({file, document.ErrorLineNum()}, text.empty() ? "the file is empty"
+                                               : document.Error()
+                                                   ? "not well-formed XML: " + cause(document)
+                                                   : "has no element");
     return std::nullopt;
   }
   XmlElement out = copy_of(*root, file, 0, log);

@@ -207,6 +207,11 @@ TEST_CASE("--convergence finds the second order of the realtime stepper on a smo
   CHECK(mentions(table.out, "order"));
   CHECK(mentions(table.out, "position [m]"));
   CHECK(tumble_program({"simulate", scene, "--seconds", "1", "--convergence", "--hash"}).code == 2);
+  // Three runs are none that a replay could be of.
+  const ProgramRun replay = tumble_program(
+      {"simulate", scene, "--seconds", "1", "--convergence", "--replay", "convergence.replay"});
+  CHECK(replay.code == 2);
+  CHECK(mentions(replay.err, "--replay"));
 }
 
 TEST_CASE("--convergence finds the order of every integrator under the event stepper") {

@@ -469,9 +469,10 @@ CommandAction declare_simulate(Options& options) {
                              "force and torque of every joint as CSV: at each tick, and the "
                              "means over the tick before");
   const Option trace = file("--trace", line->trace, "times per stage as a Chrome trace");
-  file("--replay", line->replay,
-       "the run as a replay, for `tumble pack --replay`: what was done, and the hash; up to where "
-       "it was interrupted or broke down");
+  const Option replay = file(
+      "--replay", line->replay,
+      "the run as a replay, for `tumble pack --replay`: what was done, and the hash; up to where "
+      "it was interrupted or broke down");
   declare_replay(options, line->request.replay);
   const Option hash =
       options.flag("--hash{final}", line->hash,
@@ -487,6 +488,7 @@ CommandAction declare_simulate(Options& options) {
       .excludes(contacts)
       .excludes(joints)
       .excludes(trace)
+      .excludes(replay)
       .excludes(hash)
       .excludes(asserts)
       .excludes(particles)
