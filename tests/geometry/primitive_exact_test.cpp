@@ -18,10 +18,10 @@ namespace {
 
 constexpr int random_cases = 1000000, degenerate_cases = 100000;
 
-/// All of `n` when TUMBLE_TEST_SCALE is set to 1 (the full tests), else a fiftieth, and a quarter
+/// All of `n` when TUMBLE_TEST_SCALE is set to 1 (the full tests), else an eightieth, and a tenth
 /// of that under sanitizers: the reference is slow.
 int cases(int n) {
-  return test::all_counts() ? draws::count(n) : n / (test::only_to_run() ? 200 : 50);
+  return test::all_counts() ? draws::count(n) : n / (test::only_to_run() ? 800 : 80);
 }
 
 /// Draws points of one family of cases.
