@@ -152,7 +152,7 @@ class KnownPair {
 
 TEST_CASE("a dynamic body has one proxy, a wall of another each: pairs are those that overlap") {
   Random r(65);
-  for (int draw = 0; draw < scaled_count(60, 8); ++draw) {
+  for (int draw = 0; draw < scaled_count(60, 4); ++draw) {
     RigidWorld w;
     for (int i = 0; i < 30; ++i) {
       RigidBody b = random_compound(r, 1 + int(r.uniform(0, 6)));
@@ -210,7 +210,7 @@ TEST_CASE("what is known of two bodies has the gaps of all pairs of shapes, aske
   Random r(63);
   int asked_one_by_one = 0, touching = 0, apart = 0;
   KnownPair::asked = 0;
-  for (int draw = 0; draw < scaled_count(60, 8); ++draw) {
+  for (int draw = 0; draw < scaled_count(60, 4); ++draw) {
     std::array<RigidBody, 2> bodies{random_compound(r, 2 + int(r.uniform(0, 12))),
                                     random_compound(r, 1 + int(r.uniform(0, 12)))};
     bodies[0].pose = {vector_in(r, 10), rotation_in(r)};
@@ -272,7 +272,7 @@ TEST_CASE("what is known of bodies of several shapes survives saving, to the bit
 TEST_CASE("pairs of shapes found by the trees hold all that are near, and few that are far") {
   Random r(61);
   size_t listed = 0, near = 0, all = 0;
-  for (int draw = 0; draw < scaled_count(400, 40); ++draw) {
+  for (int draw = 0; draw < scaled_count(400, 16); ++draw) {
     RigidBody a = random_compound(r, 1 + int(r.uniform(0, 20)));
     RigidBody b = random_compound(r, 1 + int(r.uniform(0, 20)));
     a.pose = {vector_in(r, 100), rotation_in(r)};
@@ -399,7 +399,7 @@ TEST_CASE("bodies of several shapes that meet within a tick have a contact at it
   // Reference: the gaps of all pairs of shapes at several moments of the tick.
   Random r(65);
   int all = 0, met = 0, passed = 0, asked = 0;
-  for (int draw = 0; draw < scaled_count(40, 6); ++draw) {
+  for (int draw = 0; draw < scaled_count(40, 3); ++draw) {
     std::array<RigidBody, 2> bodies{random_compound(r, 2 + int(r.uniform(0, 12))),
                                     random_compound(r, 1 + int(r.uniform(0, 12)))};
     bodies[0].pose = {vector_in(r, 10), rotation_in(r)};

@@ -18,10 +18,12 @@ namespace {
 
 constexpr int random_cases = 1000000, degenerate_cases = 100000;
 
-/// All of `n` when TUMBLE_TEST_SCALE is set to 1 (the full tests), else a fiftieth, and a quarter
-/// of that under sanitizers: the reference is slow.
-int cases(int n) {
-  return test::all_counts() ? draws::count(n) : n / (test::only_to_run() ? 200 : 50);
+/// All cases of a family when TUMBLE_TEST_SCALE is set to 1 (the full tests), else a fiftieth of
+/// the degenerate and an eightieth of the random ones, and a tenth of that under sanitizers: the
+/// reference is slow.
+int cases(bool degenerate) {
+  const int all = degenerate ? degenerate_cases : random_cases, part = degenerate ? 50 : 80;
+  return test::all_counts() ? draws::count(all) : all / (test::only_to_run() ? 10 * part : part);
 }
 
 /// Draws points of one family of cases.
@@ -161,7 +163,7 @@ void run(uint64_t seed, const Case& one) {
   for (const bool degenerate : {false, true}) {
     Maker maker(seed + degenerate);
     Tally tally;
-    const int n = cases(degenerate ? degenerate_cases : random_cases);
+    const int n = cases(degenerate);
     for (int i = 0; i < n; ++i) {
       maker.start(i, degenerate);
       one(maker, tally, degenerate);
@@ -263,7 +265,7 @@ TEST_CASE("exact: segment against triangle, point in triangle") {
     inside += held;
     REQUIRE(point_in_triangle(s.a, m.triangle(b)) == held);
   });
-  CHECK((cases(degenerate_cases) < 1000 || inside > cases(degenerate_cases) / 100));
+  CHECK((cases(true) < 1000 || inside > cases(true) / 100));
 }
 
 TEST_CASE("exact: edge against edge") {
@@ -291,7 +293,7 @@ void run_spheres(uint64_t seed, double radius, const MakeHull& make, const Answe
   for (const bool degenerate : {false, true}) {
     Maker m(seed + degenerate);
     int hits = 0, touching = 0;
-    const int n = cases(degenerate ? degenerate_cases : random_cases);
+    const int n = cases(degenerate);
     for (int i = 0; i < n; ++i) {
       m.start(i, degenerate);
       if (degenerate) m.half *= 2;

@@ -219,7 +219,8 @@ TEST_CASE("Painleve's rod: inconsistent sliding is refuted, with a ray, and the 
   // A rod of mass 1 and half-length 1 that slides on its lower end at angle t: unit inertia 1/3, so
   // A_nn = 1 + 3 cos^2 t, A_nt = 3 sin t cos t; b_n = spin^2 sin t - g.
   int refuted = 0, solved = 0, free_flight = 0, lost = 0;
-  for (int k = 1; k < 60; ++k) {
+  const int apart = test::only_to_run() ? 6 : 1;  // of one angle and the next
+  for (int k = 1; k < 60; k += apart) {
     const double t = 1.5 * k / 60, c = std::cos(t), s = std::sin(t);
     for (const double mu : {0.3, 1.4, 2.0, 5.0}) {
       for (const double spin : {0.0, 2.0, 6.0}) {
@@ -265,9 +266,9 @@ TEST_CASE("Painleve's rod: inconsistent sliding is refuted, with a ray, and the 
   }
   // With friction as steep as 5 there may be several answers, and a path that turns back.
   CHECK(lost <= 2);
-  CHECK(refuted > 50);
-  CHECK(solved > 100);
-  CHECK(free_flight > 50);
+  CHECK(refuted > 50 / apart);
+  CHECK(solved > 100 / apart);
+  CHECK(free_flight > 50 / apart);
 }
 
 TEST_CASE("groups beside bounded and free unknowns") {

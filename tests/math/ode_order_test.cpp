@@ -2,6 +2,7 @@
 // a quadrature), of the Kepler orbit (Kepler's equation in extended precision) and of the free top
 // (Jacobi's elliptic functions; unit quaternion). Resolution: orders to 0.15.
 #include "tests/math/ode_problems.hpp"
+#include "tests/support/scale.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,11 +16,17 @@ int coarse_steps(int order) {
   return order == 1 ? 2000 : order == 2 ? 400 : order == 4 ? 100 : 60;
 }
 
+/// How often a step is halved for an order: under sanitizers, where the code is only to run, once.
+int halvings() {
+  return tumble::test::only_to_run() ? 1 : 2;
+}
+
 /// Observed order from n, 2n and 4n steps: near from the first pair, within 0.15 from the second.
 void check_order(const IntegratorEntry& entry, Problem& problem, double time, bool quaternion) {
   CAPTURE(entry.name);
-  double error[3];
-  for (int k = 0; k < 3; ++k) {
+  double error[3] = {};
+  const int last = halvings();
+  for (int k = 0; k <= last; ++k) {
     const int n = coarse_steps(entry.order) << k;
     const auto integrator = entry.make();
     const State y = run(*integrator, problem, problem.start(), 0, time / n, n);
@@ -27,9 +34,9 @@ void check_order(const IntegratorEntry& entry, Problem& problem, double time, bo
     error[k] = difference(y, problem.exact(time), quaternion);
   }
   CAPTURE(error[0]);
-  CAPTURE(error[2]);
-  CHECK(error[2] > 1e-12);
-  for (int k = 0; k < 2; ++k) {
+  CAPTURE(error[last]);
+  CHECK(error[last] > 1e-12);
+  for (int k = 0; k < last; ++k) {
     CHECK(std::fabs(std::log2(error[k] / error[k + 1]) - entry.order) < (k ? 0.15 : 0.4));
   }
 }
@@ -105,7 +112,8 @@ void check_dense(const IntegratorEntry& entry, Problem& problem, double time, in
                  bool quaternion) {
   CAPTURE(entry.name);
   double error[3] = {};
-  for (int k = 0; k < 3; ++k, n *= 2) {
+  const int last = halvings();
+  for (int k = 0; k <= last; ++k, n *= 2) {
     const double h = time / n;
     const auto integrator = entry.make();
     State y = problem.start(), between(y.size());
@@ -127,9 +135,9 @@ void check_dense(const IntegratorEntry& entry, Problem& problem, double time, in
     }
   }
   CAPTURE(error[0]);
-  CAPTURE(error[2]);
+  CAPTURE(error[last]);
   CHECK(std::log2(error[0] / error[1]) > entry.order - 0.4);
-  CHECK(std::log2(error[1] / error[2]) > entry.order - 0.2);
+  if (last == 2) CHECK(std::log2(error[1] / error[2]) > entry.order - 0.2);
 }
 
 }  // namespace

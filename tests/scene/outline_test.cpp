@@ -99,11 +99,19 @@ const std::string named_scene = R"({
 
 TEST_CASE(
     "outline: every value of every shipped scene is in it, and set to itself changes no byte") {
-  constexpr size_t most_of_a_scene = 60;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(TUMBLE_SOURCE_DIR "/scenes"))
+    if (entry.path().extension() == ".json" && entry.path().stem() != "tumble.schema")
+      files.push_back(entry.path());
+  std::ranges::sort(files);
+  // Each value is looked up in, and changes, a scene's whole text: under sanitizers a few of some
+  // scenes are enough.
+  const size_t most_of_a_scene = test::only_to_run() ? 6 : 60;
+  const size_t next = test::only_to_run() ? 5 : 1;
   size_t scenes = 0, seen = 0, leaves = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(TUMBLE_SOURCE_DIR "/scenes")) {
-    if (entry.path().extension() != ".json" || entry.path().stem() == "tumble.schema") continue;
-    const std::string text = file_text(entry.path().string());
+  for (size_t index = 0; index < files.size(); index += next) {
+    const std::string file_name = files[index].string();
+    const std::string text = file_text(file_name);
     const JsonNode scene = tree_of_scene(text);
     const JsonTextEdit file(text);
     std::vector<ScenePath> found;
@@ -119,7 +127,7 @@ TEST_CASE(
     });
     // The format's version and the schema's address are no values of the scene.
     const size_t beside = 1 + (scene.find("$schema") ? 1 : 0);
-    CAPTURE(entry.path().string());
+    CAPTURE(file_name);
     CHECK(found.size() + beside >= count_leaves(scene));
     leaves += found.size();
     ++scenes;
@@ -134,9 +142,9 @@ TEST_CASE(
       ++seen;
     }
   }
-  CHECK(scenes > 50);
-  CHECK(leaves > 3000);
-  CHECK(seen > 1500);
+  CHECK(scenes > 50 / next);
+  CHECK(leaves > 3000 / next);
+  CHECK(seen > 25 * most_of_a_scene / next);
 }
 
 TEST_CASE("outline: what can be added can be left out again, and most of it is a scene at once") {
