@@ -1,5 +1,6 @@
 // Problems that the scene `arch` met when its stones settled, friction only holding them: dozens of
-// cones, some at the edge between two states, some that slide in a prescribed direction.
+// cones, some at the edge between two states, some that slide in a prescribed direction. And some
+// of a heap of boxes, with more points between two faces than their forces can be told apart by.
 // References: the validator, which knows no solver, and where two solvers answer, each other.
 #include "engine/math/lcp/blocks/block_solvers.hpp"
 #include "engine/math/lcp/cones/solve_cones.hpp"
@@ -30,6 +31,22 @@ std::vector<std::string> collected() {
 }
 
 }  // namespace
+
+TEST_CASE("redundant points of sliding faces are solved by Newton's method alone, to rounding") {
+  int looked_at = 0;
+  for (const std::string& file : collected()) {
+    if (file.find("heap_of_boxes") == std::string::npos) continue;
+    CAPTURE(file);
+    const BlockProblem sparse = lcp_text::read(file);
+    REQUIRE(sparse.size() > 0);
+    const auto found = block_newton(sparse, {}, nullptr);
+    REQUIRE(found.ok());
+    CHECK(validate(with_matrix(sparse), found->z).worst() <= 1e-12);
+    CHECK(found->report.iterations <= 40);
+    ++looked_at;
+  }
+  CHECK(looked_at == 3);
+}
 
 TEST_CASE("collected problems, on which semi-smooth Newton stalled, are solved along the path") {
   int sliding = 0;

@@ -19,29 +19,18 @@ inline constexpr double of_rest_terms = 1e-6;
 inline constexpr double ray_proof = 1e-9;
 /// Residual of the size of rounding, at which methods that could go on stop.
 inline constexpr double best_residual = 1e-13;
-/// Divisor instead of 0, for norms of a problem whose b is 0.
-inline constexpr double never_zero_term = 1e-150;
-/// The same for lengths and pivots that are not squared.
+/// Divisor instead of 0, for lengths and pivots.
 inline constexpr double never_zero = 1e-300;
 
 // -- semi-smooth Newton (newton/)
 
 /// In units of best_residual: no new start is tried below this.
 inline constexpr double good_enough = 100;
-/// Rounding of the merit function relative to the square of a term: the square of about ten
-/// rounding errors.
-inline constexpr double merit_rounding = 1e-30;
-inline constexpr int most_proximal_steps = 60;
-/// Limit of proximal steps in a row that do not halve the residual.
-inline constexpr int most_idle_steps = 3;
+/// Limit of steps in a row that do not halve the merit function.
+inline constexpr int most_idle_steps = 6;
 inline constexpr int most_newton_halvings = 12;
 /// Share of the predicted decrease that is required (Armijo).
 inline constexpr double newton_descent = 1e-3;
-/// If the merit decreases by less than this share, Newton's method has stalled.
-inline constexpr double least_descent = 1e-6;
-/// A stalled merit below this, relative to rounding, may still be reduced by further proximal
-/// steps.
-inline constexpr double stalled_merit = 1e6;
 /// Change of an unknown in a sweep of projected Gauss-Seidel that has diverged.
 inline constexpr double diverged_sweep = 1e100;
 /// Weight of a proximal term, scaled: far above rounding, far below the diagonal.

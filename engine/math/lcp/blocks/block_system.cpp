@@ -45,7 +45,7 @@ BlockSystem::BlockSystem(const BlockProblem& problem)
   units_.set_pattern(problem.blocks, factor_);
 }
 
-void BlockSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
+void BlockSystem::slack(const VecX& z, VecX& w) {
   charge_work(units_.parts.size(), 100);
   units_.gather(z, u_);
   for (size_t k = 0; k < units_.parts.size(); ++k) {
@@ -54,7 +54,6 @@ void BlockSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
     for (size_t r = 0; r < size_t(unit.count); ++r) {
       const int i = unit.row[r];
       w[i] = units_.b[i] + x[r];
-      w[i] += about.weight * (z[i] - about.centre[i]);
     }
   }
 }
@@ -116,7 +115,7 @@ bool BlockSystem::step(std::span<const UnitValue> values, const VecX& f, double 
 LcpResidual BlockSystem::judged(const VecX& z, double unit, VecX& w) {
   const VecX scaled = in_scaled_units(z);
   w.resize(units_.n);
-  slack(scaled, {0, scaled}, w);
+  slack(scaled, w);
   w = in_scaled_units(w);
   return judge(problem_.conditions, units_.d, unit, z, w);
 }

@@ -18,9 +18,8 @@ class BlockSystem final : public ConeSystem {
   const std::vector<double>& units() const override { return units_.d; }
   const VecX& b() const override { return units_.b; }
   std::span<const ConeUnit> parts() const override { return units_.parts; }
-  void slack(const VecX& z, const Proximal& about, VecX& w) override;
+  void slack(const VecX& z, VecX& w) override;
   bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) override;
-  double least_term(const VecX& z) const override { return units_.own_terms(z); }
   /// Relative to the largest sum of terms within units, which is at most that of all terms.
   double residual(const VecX& z) override;
   /// As for problems with a matrix, up to the rounding of w.

@@ -60,7 +60,7 @@ Result<LcpSolution> solve_as_asked(const ConeTask& t) {
 
 LcpOptions block_options(const ConeTask& t, int systems) {
   LcpOptions out;
-  out.tolerance = std::min(tolerances::sharp_residual, t.tolerance);
+  out.tolerance = t.tolerance;
   out.max_iterations = systems;
   return out;
 }
@@ -159,8 +159,7 @@ void ConeStages::attempt(const ConeStage& stage) {
   proved_ = report.status == LcpStatus::infeasible;
   if (proved_) ray_ = now->ray;
   if (first || better) best = std::move(*now);
-  // The first of several stages is judged by the tolerance that it aims at.
-  if (!first && !best.report.solved() && !stage.sliding) judge_again(task_, best);
+  if (!best.report.solved() && !stage.sliding) judge_again(task_, best);
 }
 
 void ConeStages::make_least() {

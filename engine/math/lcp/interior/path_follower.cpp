@@ -19,7 +19,6 @@ class PathFollower {
   PathFollower(ConeSystem& system, const LcpOptions& options, double weight)
       : system_(system),
         weight_(weight),
-        none_{0, VecX::Zero(system.size())},
         values_(system.parts().size()),
         w_(system.size()),
         f_(system.size()),
@@ -42,7 +41,6 @@ class PathFollower {
 
   ConeSystem& system_;
   double weight_;
-  Proximal none_;
   std::vector<UnitValue> values_;
   VecX w_, f_;
   BestPoint best_;
@@ -53,7 +51,7 @@ class PathFollower {
 
 /// |F|
 double PathFollower::evaluate(const VecX& z, double smoothing) {
-  system_.slack(z, none_, w_);
+  system_.slack(z, w_);
   for (size_t k = 0; k < values_.size(); ++k) {
     const ConeUnit& unit = system_.parts()[k];
     values_[k] = smoothed_value(unit, unit.of(z), unit.of(w_), smoothing, scale_);

@@ -48,11 +48,10 @@ bool start_inside(DenseSystem& system, SemismoothNewton& newton, VecX& z) {
   ++system.systems;
   const auto& members = factor.members();
   std::vector<double> y(static_cast<size_t>(system.size()));
-  const Proximal none{0, z};
   VecX w(z.size());
   for (int pass = 0; pass < tolerances::most_refinements; ++pass) {
     const double before = newton.best().residual;
-    system.slack(z, none, w);
+    system.slack(z, w);
     for (size_t k = 0; k < members.size(); ++k) y[k] = -w[members[k]];
     factor.solve(y.data());
     for (size_t k = 0; k < members.size(); ++k) z[members[k]] += y[k];
@@ -105,7 +104,7 @@ void polish(const LcpProblem& problem, const LcpOptions& options, LcpSolution& s
   few.max_iterations = 0;
   SemismoothNewton newton(system, polish_limits, few);
   const VecX z = system.in_scaled_units(solution.z);
-  if (!newton.consider(z)) newton.attempt(z, SemismoothNewton::usual_weight, false);
+  if (!newton.consider(z)) newton.attempt(z);
   solution.z = newton.best().z;
   solution.report.iterations += system.systems;
 }

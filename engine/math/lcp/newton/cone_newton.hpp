@@ -4,11 +4,10 @@
 namespace tumble::lcp {
 
 /// Semi-smooth Newton on the function of Alart & Curnier (Comput. Methods Appl. Mech. Eng. 92,
-/// 1991) with a line search; for bounds and cones of all kinds. Proximal steps, centred at the last
-/// point, make the linear systems regular for redundant rows; their effect vanishes as they
-/// converge, so that the result is not regularised. The first is centred at 0, which keeps
-/// redundant unknowns small and symmetric. When Newton stalls it restarts after increasing numbers
-/// of sweeps of projected Gauss-Seidel. `iterations` counts linear systems. Errors: those of
+/// 1991) with a line search; for bounds and cones of all kinds. A weight on the diagonal makes the
+/// linear systems regular for redundant rows; the function is without it, so that the result is not
+/// regularised (semismooth_newton.hpp). When Newton stalls it restarts after increasing numbers of
+/// sweeps of projected Gauss-Seidel. `iterations` counts linear systems. Errors: those of
 /// check().
 Result<LcpSolution> cone_newton(const LcpProblem& problem, const LcpOptions& options = {});
 

@@ -16,7 +16,6 @@ SemismoothNewton::SemismoothNewton(ConeSystem& system, const NewtonLimits& limit
       goal_(std::min(tolerances::best_residual, options.tolerance)),
       limit_(options.max_iterations > 0 ? options.max_iterations : limits.systems),
       first_system_(system.systems),
-      about_{0, VecX::Zero(system.size())},
       w_(system.size()),
       f_(system.size()),
       best_(system.size()),
@@ -24,7 +23,7 @@ SemismoothNewton::SemismoothNewton(ConeSystem& system, const NewtonLimits& limit
 
 /// Computes F and w at z; returns half the square of F.
 double SemismoothNewton::evaluate(const VecX& z) {
-  system_.slack(z, about_, w_);
+  system_.slack(z, w_);
   for (const ConeUnit& unit : system_.parts()) {
     const Triple f = natural_value(unit, unit.of(z), unit.of(w_));
     for (size_t r = 0; r < size_t(unit.count); ++r) f_[unit.row[r]] = f[r];
@@ -34,7 +33,7 @@ double SemismoothNewton::evaluate(const VecX& z) {
 
 /// The Newton step at the point of the last evaluate(); `inside`: as if all undecided groups were
 /// inside their cones.
-bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
+bool SemismoothNewton::step(const VecX& z, bool inside, double weight, VecX& dz) {
   VecX f = f_;
   for (size_t k = 0; k < values_.size(); ++k) {
     const ConeUnit& unit = system_.parts()[k];
@@ -45,33 +44,24 @@ bool SemismoothNewton::step(const VecX& z, bool inside, VecX& dz) {
       set_natural_slope(unit, unit.of(z), unit.of(w_), values_[k]);
     }
   }
-  return system_.step(values_, f, about_.weight, dz);
+  return system_.step(values_, f, weight, dz);
 }
 
-/// Solves one proximal problem; true if F is as small as rounding allows.
-bool SemismoothNewton::converge(VecX& z) {
-  VecX dz(z.size()), trial;
-  double now = evaluate(z);
-  const double term = system_.least_term(z), size = tolerances::merit_rounding * term * term;
-  for (int k = 0; k < limits_.steps && may_go_on() && !stop_requested(); ++k) {
-    if (!(now > size)) return true;
-    if (!step(z, false, dz)) return false;
-    double t = 1, least = std::numeric_limits<double>::infinity(), best_t = 0;
-    for (int half = 0; half < tolerances::most_newton_halvings; ++half, t *= 0.5) {
-      trial = z + t * dz;
-      const double next = evaluate(trial);
-      if (next < least) {
-        least = next;
-        best_t = t;
-      }
-      if (next <= (1 - tolerances::newton_descent * t) * now) break;
-    }
-    if (!(least < now * (1 - tolerances::least_descent)))
-      return now <= tolerances::stalled_merit * size;
-    z += best_t * dz;
-    now = evaluate(z);
+/// Moves z by a part of dz that reduces the merit; returns the share of it that is left, 1 if there
+/// is no such part.
+double SemismoothNewton::search_line(VecX& z, const VecX& dz, double& merit) {
+  const double before = merit;
+  double t = 1;
+  VecX trial;
+  for (int half = 0; half < tolerances::most_newton_halvings; ++half, t *= 0.5) {
+    trial = z + t * dz;
+    const double now = evaluate(trial);
+    if (!(now <= (1 - tolerances::newton_descent * t) * before)) continue;
+    z.swap(trial);
+    merit = now;
+    return now / before;
   }
-  return !(now > size);
+  return 1;
 }
 
 bool SemismoothNewton::consider(const VecX& z) {
@@ -79,31 +69,23 @@ bool SemismoothNewton::consider(const VecX& z) {
   return best_.residual <= goal_;
 }
 
-bool SemismoothNewton::attempt(VecX z, double weight, bool about_zero) {
-  about_.weight = weight;
-  if (about_zero)
-    about_.centre.setZero();
-  else
-    about_.centre = z;
-  int idle = 0;
-  for (int k = 0; k < tolerances::most_proximal_steps && idle < tolerances::most_idle_steps &&
-                  !stop_requested();
-       ++k) {
-    const bool converged = converge(z);
-    const double before = best_.residual;
-    if (consider(z)) return true;
-    if (!converged) break;
-    idle = best_.residual > 0.5 * before ? idle + 1 : 0;
-    about_.centre = z;
+bool SemismoothNewton::attempt(VecX z, double weight) {
+  VecX dz(z.size());
+  double merit = evaluate(z);
+  bool done = consider(z);
+  for (int k = 0, idle = 0; !done && k < limits_.steps && may_go_on() && !stop_requested(); ++k) {
+    if (!step(z, false, weight, dz)) break;
+    const double left = search_line(z, dz, merit);
+    idle = left > 0.5 ? idle + 1 : 0;
+    done = consider(z) || left == 1 || idle == tolerances::most_idle_steps;
   }
   return best_.residual <= tolerances::good_enough * goal_;
 }
 
 bool SemismoothNewton::attempt_inside() {
   VecX z = VecX::Zero(system_.size()), dz = z;
-  about_ = {usual_weight, z};
   evaluate(z);
-  return attempt(step(z, true, dz) ? dz : z);
+  return attempt(step(z, true, usual_weight, dz) ? dz : z);
 }
 
 bool SemismoothNewton::attempt_after_sweeps(VecX z) {
@@ -116,7 +98,7 @@ bool SemismoothNewton::attempt_after_sweeps(VecX z) {
     }
     if (consider(z) || attempt(z)) return true;
     for (const double weight : tolerances::other_weights)
-      if (attempt(z, weight, false)) return true;
+      if (attempt(z, weight)) return true;
   }
   return false;
 }

@@ -6,13 +6,16 @@ namespace tumble::lcp {
 
 /// Limits of Newton's method.
 struct NewtonLimits {
-  int steps;    ///< for one proximal problem
+  int steps;    ///< from one start
   int systems;  ///< matrices factored, unless options give another limit
   int sweeps;   ///< sweeps of projected Gauss-Seidel before the last start
 };
 
 /// Semi-smooth Newton on the natural map of a system (natural_map.hpp), with the best point found.
-/// Points are in scaled units.
+/// Rows may be redundant, so a weight is added to the diagonal of A in the linear systems, but not
+/// in the map: each step is the first Newton step of a proximal problem that is centred at its
+/// start (proximal point method, Rockafellar 1976, whose problems need not be solved any further
+/// than that). Points are in scaled units.
 class SemismoothNewton {
  public:
   static constexpr double usual_weight = tolerances::usual_weight;
@@ -21,10 +24,8 @@ class SemismoothNewton {
 
   /// Measures a point; true if it is good enough.
   bool consider(const VecX& z);
-  /// Proximal steps from z with this weight, the first centred at 0 or at z, each starting where
-  /// the last one ended, until the regularisation has vanished. True if the best point is good
-  /// enough.
-  bool attempt(VecX z, double weight = usual_weight, bool about_zero = true);
+  /// Steps from z until nothing is gained. True if the best point is good enough.
+  bool attempt(VecX z, double weight = usual_weight);
   /// Starts from the solution with the rows of all undecided groups as equations.
   bool attempt_inside();
   /// Restarts after increasing numbers of sweeps, which begin at z.
@@ -35,8 +36,8 @@ class SemismoothNewton {
 
  private:
   double evaluate(const VecX& z);
-  bool step(const VecX& z, bool inside, VecX& dz);
-  bool converge(VecX& z);
+  bool step(const VecX& z, bool inside, double weight, VecX& dz);
+  double search_line(VecX& z, const VecX& dz, double& merit);
   bool may_go_on() const { return systems() < limit_; }
   int systems() const { return system_.systems - first_system_; }
 
@@ -44,7 +45,6 @@ class SemismoothNewton {
   NewtonLimits limits_;
   double goal_;
   int limit_, first_system_;
-  Proximal about_;
   VecX w_, f_;
   BestPoint best_;
   std::vector<UnitValue> values_;

@@ -34,12 +34,6 @@ struct UnitValue {
   Square by_z{}, by_w{};
 };
 
-/// Proximal term weight (z - centre), which is added to A z + b in case rows of A are redundant.
-struct Proximal {
-  double weight = 0;
-  VecX centre;
-};
-
 /// A problem as iterative methods use it, independent of the form of A. In scaled units unless
 /// stated otherwise.
 class ConeSystem {
@@ -56,12 +50,10 @@ class ConeSystem {
   /// The point within the bounds that is nearest to 0.
   VecX rest() const;
 
-  /// w = A z + b + weight (z - centre)
-  virtual void slack(const VecX& z, const Proximal& about, VecX& w) = 0;
+  /// w = A z + b
+  virtual void slack(const VecX& z, VecX& w) = 0;
   /// Solves by_z dz + by_w (A + weight) dz = -f, by parts; false if it is singular.
   virtual bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) = 0;
-  /// A lower bound of the largest absolute term of A z + b; not 0.
-  virtual double least_term(const VecX& z) const = 0;
   /// LcpResidual::worst() of a z in the problem's units.
   virtual double residual(const VecX& z) = 0;
   /// grade() of validate.hpp.

@@ -32,9 +32,9 @@ DenseSystem::DenseSystem(const LcpProblem& problem)
         own_[k][3 * r + q] = scaled_.at(parts_[k].row[r], parts_[k].row[q]);
 }
 
-void DenseSystem::slack(const VecX& z, const Proximal& about, VecX& w) {
+void DenseSystem::slack(const VecX& z, VecX& w) {
   charge_work(size_t(scaled_.n), size_t(scaled_.n) + 20);
-  for (int i = 0; i < scaled_.n; ++i) w[i] = scaled_.b[i] + about.weight * (z[i] - about.centre[i]);
+  w = scaled_.b;
   std::vector<int> columns;
   std::vector<double> factors;
   for (int j = 0; j < scaled_.n; ++j) {
@@ -101,10 +101,6 @@ bool DenseSystem::step(std::span<const UnitValue> values, const VecX& f, double 
   lu_.solve(right_.data());
   for (size_t c = 0; c < m; ++c) dz[active_[c]] = right_[c];
   return dz.allFinite();
-}
-
-double DenseSystem::least_term(const VecX&) const {
-  return std::max(tolerances::never_zero_term, scaled_.b.cwiseAbs().maxCoeff());
 }
 
 double DenseSystem::residual(const VecX& z) {

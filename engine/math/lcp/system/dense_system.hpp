@@ -17,9 +17,8 @@ class DenseSystem final : public ConeSystem {
   const std::vector<double>& units() const override { return scaled_.d; }
   const VecX& b() const override { return scaled_.b; }
   std::span<const ConeUnit> parts() const override { return parts_; }
-  void slack(const VecX& z, const Proximal& about, VecX& w) override;
+  void slack(const VecX& z, VecX& w) override;
   bool step(std::span<const UnitValue> values, const VecX& f, double weight, VecX& dz) override;
-  double least_term(const VecX& z) const override;
   double residual(const VecX& z) override;
   void grade(double tolerance, LcpSolution& solution) override;
   void start_sweeps(const VecX& z) override;
