@@ -7,9 +7,12 @@
 namespace tumble {
 namespace {
 
-/// The first pixel whose centre is not below x.
+/// The first pixel whose centre is not below x. Rounds up by itself: without SSE 4.1 std::ceil is a
+/// call, which took half of all the time here.
 int pixel(float x, int limit) {
-  return int(std::clamp(std::ceil(x - 0.5f), 0.f, float(limit)));
+  const float within = std::clamp(x - 0.5f, 0.f, float(limit));
+  const int below = int(within);
+  return below + (float(below) < within);
 }
 
 /// The part of the picture's pixels that discs touch.

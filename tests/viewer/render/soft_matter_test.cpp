@@ -65,7 +65,7 @@ float noise_at(const Vec3f& x, uint32_t seed) {
     for (int k = 0; k < 3; ++k) {
       const float low = std::floor(x[k]), t = smooth(x[k] - low);
       weight *= step[size_t(k)] ? t : 1 - t;
-      corner[size_t(k)] = uint64_t(int(low) + step[size_t(k)]);
+      corner[size_t(k)] = uint32_t(int(low) + step[size_t(k)]);
     }
     uint64_t h = corner[0] * 0x9E3779B97F4A7C15u ^ corner[1] * 0xC2B2AE3D27D4EB4Fu ^
                  corner[2] * 0x165667B19E3779F9u ^ uint64_t(seed) << 32;
