@@ -20,7 +20,11 @@ constexpr size_t huge_page = size_t{1} << 21;
 
 /// Larger blocks are not made ahead: their pictures may yet be refused, and take far longer to draw
 /// [byte].
+#ifdef TUMBLE_SANITIZED
+constexpr size_t most_ahead = 0;  // sanitizers have their own posix_memalign: nothing asks for them
+#else
 constexpr size_t most_ahead = size_t{64} << 20;
+#endif
 
 /// The last large page is used whole: a rest in small ones would cost more than its memory.
 size_t in_huge_pages(size_t size) {
@@ -43,7 +47,9 @@ struct AheadBlock {
 constinit std::mutex ahead_mutex;
 std::condition_variable ahead_changed;
 constinit std::vector<AheadBlock>* ahead = nullptr;  ///< null: there are none
+constinit int waiting = 0;                           ///< threads that wait for a block
 
+#ifndef TUMBLE_SANITIZED
 /// A block made ahead, or null. One that is being made is waited for: half of the work is done.
 void* take_ahead(size_t whole) {
   std::unique_lock lock(ahead_mutex);
@@ -55,12 +61,17 @@ void* take_ahead(size_t whole) {
       block.state = State::taken;
       return nullptr;
     }
-    ahead_changed.wait(lock, [&block] { return block.state == State::ready; });
+    ++waiting;
+    ahead_changed.wait(lock, [&block] { return block.state != State::being_made; });
+    --waiting;
+    ahead_changed.notify_all();
+    if (block.state == State::taken) continue;  // by another thread that waited
     block.state = State::taken;
     return block.data;
   }
   return nullptr;
 }
+#endif
 
 /// Has the system make all pages of a block.
 void write_pages([[maybe_unused]] void* data, [[maybe_unused]] size_t size) {
@@ -106,7 +117,8 @@ BlocksAhead::~BlocksAhead() {
       if (block.state == AheadBlock::State::wanted) block.state = AheadBlock::State::taken;
   }
   maker_.join();
-  const std::scoped_lock lock(ahead_mutex);
+  std::unique_lock lock(ahead_mutex);
+  ahead_changed.wait(lock, [] { return waiting == 0; });
   for (const AheadBlock& block : *ahead)
     if (block.state == AheadBlock::State::ready) std::free(block.data);
   delete ahead;
