@@ -15,14 +15,14 @@ Status PictureTargets::make(TargetId& target, const TargetDesc& desc) {
 }
 
 Status PictureTargets::prepare(int width, int height, float resolution,
-                               const QualityValues& quality) {
+                               const QualityValues& quality, bool covered) {
   const auto reduced = [&](int pixels) {
     return std::clamp(int(std::lround(float(pixels) * resolution)), std::min(pixels, 1), pixels);
   };
   const int drawn_width = reduced(width), drawn_height = reduced(height);
   if (width == width_ && height == height_ && drawn_width == drawn_width_ &&
       drawn_height == drawn_height_ && quality == quality_)
-    return {};
+    return covered ? separate_picture() : Status();
   if (width < 1 || height < 1 || width > 16384 || height > 16384)
     return Error{ErrorCode::invalid_argument,
                  fmt::format("picture size {} x {} is not in 1..16384", width, height), "", ""};
@@ -32,7 +32,8 @@ Status PictureTargets::prepare(int width, int height, float resolution,
   d.height = height;
   const bool many = quality.samples > 1, fewer = drawn_width < width || drawn_height < height;
   d.depth = many || fewer ? DepthAttachment::none : DepthAttachment::buffer;
-  Status s = make(picture_, d);
+  Status s;
+  if (covered || fewer || !many) s = make(picture_, d);
   d.width = drawn_width;
   d.height = drawn_height;
   if (s && many) s = make(world_, d);
@@ -61,6 +62,15 @@ Status PictureTargets::prepare(int width, int height, float resolution,
   drawn_height_ = drawn_height;
   quality_ = quality;
   return {};
+}
+
+Status PictureTargets::separate_picture() {
+  if (picture_) return {};
+  TargetDesc d;
+  d.width = width_;
+  d.height = height_;
+  d.depth = DepthAttachment::none;
+  return make(picture_, d);
 }
 
 void PictureTargets::release() {

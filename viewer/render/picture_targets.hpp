@@ -13,7 +13,9 @@ class PictureTargets {
   PictureTargets& operator=(const PictureTargets&) = delete;
 
   /// The world is drawn with `resolution` (at most 1) times as many pixels along each axis.
-  Status prepare(int width, int height, float resolution, const QualityValues& quality);
+  /// `covered`: words or panels are drawn over it.
+  Status prepare(int width, int height, float resolution, const QualityValues& quality,
+                 bool covered);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -27,7 +29,9 @@ class PictureTargets {
   /// single-sampled.
   TargetId averaged() const { return world_ ? world_ : canvas(); }
   bool is_reduced() const { return drawn_width_ != width_ || drawn_height_ != height_; }
-  TargetId picture() const { return picture_; }  ///< single-sampled, readable
+  /// Single-sampled, readable. A world that nothing covers is the picture itself; one that panels
+  /// cover stays apart, so that it is not drawn again when only these change.
+  TargetId picture() const { return picture_ ? picture_ : world_; }
   TargetId shadow() const { return shadow_; }
   TargetId contact(int i) const { return contact_[size_t(i)]; }
   TextureId shadow_map() const { return device_.depth_texture(shadow_); }
@@ -36,6 +40,7 @@ class PictureTargets {
 
  private:
   Status make(TargetId& target, const TargetDesc& desc);
+  Status separate_picture();
   void release();
 
   Device& device_;

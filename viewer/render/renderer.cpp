@@ -10,6 +10,11 @@
 namespace tumble {
 namespace {
 
+/// Whether words are drawn over the world.
+bool has_words(const RenderScene& scene) {
+  return !scene.texts.empty() || !scene.legends.empty() || scene.plate;
+}
+
 class RendererImpl final : public Renderer {
  public:
   RendererImpl(Device& device, const Pipelines& pipelines)
@@ -103,7 +108,10 @@ Result<FrameReport> RendererImpl::finish_picture(const UiDrawList& panels, const
 
 Result<FrameReport> RendererImpl::render(const RenderScene& scene, int width, int height) {
   shown_ = {};
-  if (Status s = targets_.prepare(width, height, scene.resolution, values_of(scene.quality)); !s)
+  const bool covered = has_words(scene) || !scene.ui.draws.empty();
+  if (Status s =
+          targets_.prepare(width, height, scene.resolution, values_of(scene.quality), covered);
+      !s)
     return s.error();
   ++frame_;
   device_.begin_frame();
@@ -131,8 +139,8 @@ Result<FrameReport> RendererImpl::render_beside(const RenderScene& left, const R
                                                 const SideBySide& places, int width, int height) {
   shown_ = {};
   for (const auto& [scene, targets] : {std::pair(&left, &targets_), std::pair(&right, &beside_)})
-    if (Status s =
-            targets->prepare(places.width, height, scene->resolution, values_of(scene->quality));
+    if (Status s = targets->prepare(places.width, height, scene->resolution,
+                                    values_of(scene->quality), has_words(*scene));
         !s)
       return s.error();
   if (Status s = prepare_whole(width, height); !s) return s.error();

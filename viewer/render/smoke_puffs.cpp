@@ -4,12 +4,13 @@
 #include "engine/math/types.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
 namespace {
 
-constexpr int tile = 128, slices = 14, octaves = 3;
+constexpr int tile = 128, slices = 14;
 
 /// A number in 0..1 for each corner of a lattice (the mixing of splitmix64).
 float corner_value(int x, int y, int z, uint32_t seed) {
@@ -25,45 +26,107 @@ float smooth(float t) {
   return t * t * (3 - 2 * t);
 }
 
-/// Value noise, 0..1.
-float noise(const Vec3f& x, uint32_t seed) {
-  const Vec3f cell = x.array().floor();
-  const int i = int(cell.x()), j = int(cell.y()), k = int(cell.z());
-  const float u = smooth(x.x() - cell.x()), v = smooth(x.y() - cell.y());
-  const float w = smooth(x.z() - cell.z());
-  float sum = 0;
-  for (int c = 0; c < 8; ++c) {
-    const int dx = c & 1, dy = c >> 1 & 1, dz = c >> 2;
-    sum += (dx ? u : 1 - u) * (dy ? v : 1 - v) * (dz ? w : 1 - w) *
-           corner_value(i + dx, j + dy, k + dz, seed);
+/// The corners' values of one octave of value noise about the unit ball, each computed once.
+class Octave {
+ public:
+  Octave(float scale, uint32_t seed) : scale_(scale) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low_[axis] = int(std::floor(middle[axis] - scale));
+      count_[axis] = int(std::floor(middle[axis] + scale)) + 2 - low_[axis];
+    }
+    values_.reserve(size_t(count_[0]) * size_t(count_[1]) * size_t(count_[2]));
+    for (int i = 0; i < count_[0]; ++i)
+      for (int j = 0; j < count_[1]; ++j)
+        for (int k = 0; k < count_[2]; ++k)
+          values_.push_back(corner_value(low_[0] + i, low_[1] + j, low_[2] + k, seed));
   }
-  return sum;
+
+  /// The noise along a line parallel to z.
+  class Line {
+   public:
+    Line(const Octave& of, float x, float y) : of_(of) {
+      const float at_x = of.scale_ * x + middle[0], at_y = of.scale_ * y + middle[1];
+      const float i = std::floor(at_x), j = std::floor(at_y);
+      const float u = smooth(at_x - i), v = smooth(at_y - j);
+      for (int c = 0; c < 4; ++c) {
+        const int dx = c & 1, dy = c >> 1;
+        weight_[c] = (dx ? u : 1 - u) * (dy ? v : 1 - v);
+        const int row = (int(i) + dx - of.low_[0]) * of.count_[1] + int(j) + dy - of.low_[1];
+        values_[c] = of.values_.data() + row * of.count_[2];
+      }
+    }
+    /// 0..1
+    float at(float z) const {
+      const float at_z = of_.scale_ * z + middle[2], cell = std::floor(at_z);
+      const float w = smooth(at_z - cell);
+      const int k = int(cell) - of_.low_[2];
+      float sum = 0;
+      for (int c = 0; c < 4; ++c) sum += weight_[c] * (1 - w) * values_[c][k];
+      for (int c = 0; c < 4; ++c) sum += weight_[c] * w * values_[c][k + 1];
+      return sum;
+    }
+
+   private:
+    const Octave& of_;
+    std::array<float, 4> weight_{};
+    std::array<const float*, 4> values_{};  ///< by the number of a corner along z
+  };
+
+ private:
+  /// Where the ball's centre is among the corners.
+  static constexpr std::array<float, 3> middle{7, 13, 19};
+  float scale_;  ///< corners by radius of the ball
+  std::array<int, 3> low_{}, count_{};
+  std::vector<float> values_;  ///< z fastest
+};
+
+/// The noise of one puff.
+using PuffNoise = std::array<Octave, 3>;
+
+PuffNoise noise_of(uint32_t seed) {
+  float size = 1;
+  const auto next = [&size](uint32_t octave_seed) {
+    const Octave octave(size * 2.3f, octave_seed);
+    size *= 2.1f;
+    return octave;
+  };
+  return {next(seed), next(seed + 1), next(seed + 2)};
 }
 
-/// Density of the cloud at a point of the unit ball: noise that thins out towards its rim.
-float density(const Vec3f& x, uint32_t seed) {
-  float sum = 0, size = 1, weight = 0.5f;
-  for (int o = 0; o < octaves; ++o) {
-    sum += weight * noise(size * 2.3f * x + Vec3f(7, 13, 19), seed + uint32_t(o));
-    size *= 2.1f;
-    weight *= 0.5f;
+/// Density of the cloud along a line through the unit ball: noise that thins out towards its rim.
+class Density {
+ public:
+  Density(const PuffNoise& noise, float x, float y)
+      : x_(x), y_(y), lines_{{{noise[0], x, y}, {noise[1], x, y}, {noise[2], x, y}}} {}
+  float at(float z) const {
+    float sum = 0, weight = 0.5f;
+    for (const Octave::Line& line : lines_) {
+      sum += weight * line.at(z);
+      weight *= 0.5f;
+    }
+    const float rim = 1 - Vec3f(x_, y_, z).squaredNorm();
+    return std::max(0.f, rim * (sum * 3.4f - 0.95f));
   }
-  const float rim = 1 - x.squaredNorm();
-  return std::max(0.f, rim * (sum * 3.4f - 0.95f));
-}
+
+ private:
+  float x_, y_;
+  std::array<Octave::Line, 3> lines_;
+};
 
 struct Column {
   float alpha = 0;
   float height = 0;  ///< mean height from which light leaves it towards the eye, -1..1
 };
 
-Column column(float x, float y, uint32_t seed) {
+Column column(const PuffNoise& noise, float x, float y) {
   Column out;
   const float half = std::sqrt(std::max(1 - x * x - y * y, 0.f));
+  if (!(half > 0)) return out;
+  const Density density(noise, x, y);
   float left = 1, seen = 0;
-  for (int s = 0; s < slices && half > 0; ++s) {
+  for (int s = 0; s < slices; ++s) {
     const float z = half * (1 - 2 * (float(s) + 0.5f) / slices);
-    const float some = density({x, y, z}, seed) * 8 * half / slices;
+    const float some = density.at(z) * 8 * half / slices;
     const float taken = left * some / (1 + some);
     out.height += taken * z;
     seen += taken;
@@ -86,10 +149,11 @@ PuffAtlas make_puff_atlas() {
   out.texels.resize(size_t(out.size) * size_t(out.size));
   std::vector<Column> columns(tile * tile);
   for (uint32_t kind = 0; kind < 4; ++kind) {
+    const PuffNoise noise = noise_of(100 * kind + 1);
     const auto place = [](int i) { return (float(i) + 0.5f) / tile * 2 - 1; };
     for (int j = 0; j < tile; ++j)
       for (int i = 0; i < tile; ++i)
-        columns[size_t(j * tile + i)] = column(place(i), place(j), 100 * kind + 1);
+        columns[size_t(j * tile + i)] = column(noise, place(i), place(j));
     const auto height = [&](int i, int j) {
       return columns[size_t(std::clamp(j, 0, tile - 1) * tile + std::clamp(i, 0, tile - 1))].height;
     };

@@ -74,44 +74,58 @@ void SoftPass::release() {
   width_ = height_ = 0;
 }
 
-Status SoftPass::prepare(int width, int height, Quality quality) {
+Status SoftPass::prepare(const RenderScene& scene, int width, int height) {
+  const int scale = scene.quality == Quality::high ? 1 : 2;
+  if (width != width_ || height != height_ || scale != smoke_scale_) release();
+  width_ = width;
+  height_ = height;
+  smoke_scale_ = scale;
+  Status s;
+  if (!solid_) {
+    TargetDesc d;
+    d.width = width;
+    d.height = height;
+    d.colour = ColourAttachment::none;
+    d.depth = DepthAttachment::texture;
+    s = make(solid_, d);
+  }
+  // What only one of the two needs is made with its first picture: each target's memory is written
+  // when it is made.
+  if (s && !scene.fluids.empty() && !front_) s = make_for_liquids();
+  if (s && !scene.smoke.empty() && !smoke_) s = make_for_smoke();
+  if (!s) release();
+  return s;
+}
+
+Status SoftPass::make_for_liquids() {
+  TargetDesc d;
+  d.width = width_;
+  d.height = height_;
+  d.depth = DepthAttachment::none;
+  Status s = make(behind_, d);
+  d.colour = ColourAttachment::r32f;
+  if (s) s = make(other_, d);
+  d.depth = DepthAttachment::buffer;
+  if (s) s = make(front_, d);
+  d.width = (width_ + 1) / 2;
+  d.height = (height_ + 1) / 2;
+  d.colour = ColourAttachment::rgba16f;
+  d.depth = DepthAttachment::none;
+  if (s) s = make(thickness_, d);
+  return s;
+}
+
+Status SoftPass::make_for_smoke() {
   if (!puffs_) {
     const PuffAtlas atlas = make_puff_atlas();
     puffs_ = device_.create_texture(TextureFormat::rgba8_linear_filter, atlas.size, atlas.size,
                                     std::as_bytes(std::span(atlas.texels)));
   }
-  const int scale = quality == Quality::high ? 1 : 2;
-  if (width == width_ && height == height_ && scale == smoke_scale_) return {};
-  release();
-  smoke_scale_ = scale;
   TargetDesc d;
-  d.width = width;
-  d.height = height;
+  d.width = (width_ + smoke_scale_ - 1) / smoke_scale_;
+  d.height = (height_ + smoke_scale_ - 1) / smoke_scale_;
   d.depth = DepthAttachment::none;
-  Status s = make(behind_, d);
-  d.colour = ColourAttachment::none;
-  d.depth = DepthAttachment::texture;
-  if (s) s = make(solid_, d);
-  d.colour = ColourAttachment::r32f;
-  d.depth = DepthAttachment::buffer;
-  if (s) s = make(front_, d);
-  d.depth = DepthAttachment::none;
-  if (s) s = make(other_, d);
-  d.width = (width + 1) / 2;
-  d.height = (height + 1) / 2;
-  d.colour = ColourAttachment::rgba16f;
-  if (s) s = make(thickness_, d);
-  d.width = (width + scale - 1) / scale;
-  d.height = (height + scale - 1) / scale;
-  d.colour = ColourAttachment::rgba8;
-  if (s) s = make(smoke_, d);
-  if (!s) {
-    release();
-    return s;
-  }
-  width_ = width;
-  height_ = height;
-  return {};
+  return make(smoke_, d);
 }
 
 DrawCall SoftPass::call(const DrawCall& base, PipelineId pipeline,

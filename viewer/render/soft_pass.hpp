@@ -26,7 +26,8 @@ class SoftPass {
   SoftPass(const SoftPass&) = delete;
   SoftPass& operator=(const SoftPass&) = delete;
 
-  Status prepare(int width, int height, Quality quality);
+  /// Makes what the liquids and the smoke of the scene need and is not there yet.
+  Status prepare(const RenderScene& scene, int width, int height);
   /// Determines where liquids and smoke are in this picture, and the light of the sun that they
   /// leave (SunVeil).
   void plan(const RenderScene& scene, const FrameSetup& setup);
@@ -53,6 +54,8 @@ class SoftPass {
                    TargetId canvas, const DrawCall& base);
   void smooth_front(Quality quality, const ScissorRect& area, const DrawCall& base);
   Status make(TargetId& target, const TargetDesc& desc);
+  Status make_for_liquids();
+  Status make_for_smoke();
   void release();
 
   Device& device_;

@@ -240,7 +240,8 @@ void WorldPass::finish(bool is_averaged) {
     if (!is_averaged && t.canvas() != t.averaged()) device_.resolve(t.canvas(), t.averaged());
     enlarge();
   } else if (t.canvas() != t.picture()) {
-    device_.resolve(is_averaged ? t.averaged() : t.canvas(), t.picture());
+    const TargetId drawn = is_averaged ? t.averaged() : t.canvas();
+    if (drawn != t.picture()) device_.resolve(drawn, t.picture());
   }
 }
 
@@ -251,7 +252,7 @@ Result<WorldDrawn> WorldPass::draw(const RenderScene& scene, PictureTargets& tar
   const int width = targets.drawn_width(), height = targets.drawn_height();
   const bool soft = scene.has_soft_matter();
   if (soft)
-    if (Status s = soft_.prepare(width, height, scene.quality); !s) return s.error();
+    if (Status s = soft_.prepare(scene, width, height); !s) return s.error();
   const FrameSetup setup = make_frame_setup(scene, width, height);
   make_draw_plan(scene, setup.view, plan_);
   plan_ground(scene, setup, ground_plan_);

@@ -12,6 +12,7 @@
 #include "viewer/render/sun_veil.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,28 @@ SmokePuff puff_at(const Vec3f& x, float opacity = 0.5f) {
   p.radius = 0.4f;
   p.opacity = opacity;
   return p;
+}
+
+/// Value noise at one point, its eight corners hashed anew (the mixing of splitmix64).
+float noise_at(const Vec3f& x, uint32_t seed) {
+  const auto smooth = [](float t) { return t * t * (3 - 2 * t); };
+  float sum = 0;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> step{c & 1, c >> 1 & 1, c >> 2};
+    std::array<uint64_t, 3> corner{};
+    float weight = 1;
+    for (int k = 0; k < 3; ++k) {
+      const float low = std::floor(x[k]), t = smooth(x[k] - low);
+      weight *= step[size_t(k)] ? t : 1 - t;
+      corner[size_t(k)] = uint32_t(int(low) + step[size_t(k)]);
+    }
+    uint64_t h = corner[0] * 0x9E3779B97F4A7C15u ^ corner[1] * 0xC2B2AE3D27D4EB4Fu ^
+                 corner[2] * 0x165667B19E3779F9u ^ uint64_t(seed) << 32;
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
+    sum += weight * float((h ^ (h >> 31)) >> 40) / 16777216.0f;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -254,6 +277,58 @@ TEST_CASE("puffs are dense in the middle and gone at the rim of their pictures")
     for (int i = 0; i < tile; ++i)
       CHECK(alpha(i, 0) + alpha(i, tile - 1) + alpha(0, i) + alpha(tile - 1, i) < 8);
   }
+}
+
+TEST_CASE("how dense a puff is follows from three octaves of noise along the line of sight") {
+  const PuffAtlas atlas = make_puff_atlas();
+  const int tile = atlas.size / 2, slices = 14;
+  const auto place = [&](int i) { return (float(i) + 0.5f) / float(tile) * 2 - 1; };
+  int some = 0;
+  for (int kind = 0; kind < 4; ++kind)
+    for (int j = 3; j < tile; j += 11)
+      for (int i = 5; i < tile; i += 7) {
+        const float x = place(i), y = place(j), half = std::sqrt(std::max(1 - x * x - y * y, 0.f));
+        float left = 1;
+        for (int s = 0; s < slices && half > 0; ++s) {
+          const Vec3f at(x, y, half * (1 - 2 * (float(s) + 0.5f) / float(slices)));
+          float sum = 0;
+          for (uint32_t o = 0; o < 3; ++o)
+            sum += std::ldexp(1.f, -1 - int(o)) *
+                   noise_at(Vec3f(std::pow(2.1f, float(o)) * 2.3f * at + Vec3f(7, 13, 19)),
+                            uint32_t(100 * kind + 1) + o);
+          const float dense = std::max(0.f, (1 - at.squaredNorm()) * (sum * 3.4f - 0.95f));
+          left /= 1 + dense * 8 * half / float(slices);
+        }
+        const int row = (j + kind / 2 * tile) * atlas.size;
+        const int alpha = int(atlas.texels[size_t(row + i + kind % 2 * tile)] >> 24);
+        CHECK(std::abs(float(alpha) - 255 * (1 - left)) < 0.6f);
+        some += alpha > 20 && alpha < 235;
+      }
+  CHECK(some > 300);
+}
+
+TEST_CASE("targets that a picture has no use for are not made") {
+  auto device = make_null_device();
+  auto renderer = Renderer::create(*device, *resource_path("shaders"));
+  REQUIRE(renderer.ok());
+  RenderScene scene;
+  const auto live = [&] {
+    REQUIRE((*renderer)->render(scene, 320, 180).ok());
+    return device->stats().live_resources;
+  };
+  const uint32_t bare = live();
+  CHECK(live() == bare);
+  scene.smoke.push_back(puff_at(Vec3f(0, 1, 0)));
+  const uint32_t smoke = live();  // solid depth, smoke, atlas and veil, two targets of one texture
+  CHECK(smoke == bare + 6);
+  scene.fluids.push_back(slab(0.1));
+  const uint32_t both = live();  // behind, front, other and thickness, each with its texture
+  CHECK(both == smoke + 8);
+  scene.texts.emplace_back();
+  scene.texts[0].text = "a";
+  CHECK(live() == both + 2);  // the picture that words are drawn over
+  CHECK(live() == both + 2);
+  for (const std::string& fault : device->take_faults()) FAIL_CHECK(fault);
 }
 
 TEST_CASE(

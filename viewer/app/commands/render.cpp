@@ -4,6 +4,7 @@
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/drawing.hpp"
+#include "viewer/app/large_blocks.hpp"
 #include "viewer/app/options.hpp"
 #include "viewer/app/scenes/load_scene.hpp"
 #include "viewer/app/scenes/saved_states.hpp"
@@ -300,7 +301,11 @@ int run_render(RenderLine& line) {
 
   const StopSignal stop;
   line.request.log = options.log;
-  // The scene loads while the context is made; a resumed run may need none.
+  // The scene loads while the context is made, and the memory of the first picture; a resumed run
+  // may need none.
+  std::optional<BlocksAhead> blocks;
+  const auto quality = parse_quality(line.quality);
+  if (!line.resume && quality) blocks.emplace(blocks_of_picture(plan.width, plan.height, *quality));
   auto loading = std::async(std::launch::async, [&line, &stop, saved] {
     const Stoppable scope(&stop.flag());
     return saved ? saved->load_scene(line.request, TUMBLE_VERSION)
@@ -308,6 +313,7 @@ int run_render(RenderLine& line) {
   });
   std::optional<Result<Drawing>> drawing;
   if (!line.resume) drawing.emplace(make_drawing(line.context, options.log));
+  if (drawing && !(drawing->ok() && (*drawing)->context->info().software)) blocks.reset();
   const auto scene = loading.get();
   if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));
