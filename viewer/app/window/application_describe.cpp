@@ -102,7 +102,8 @@ std::string Application::described_text() {
 
 /// Called once a picture.
 void Application::look_at_description() {
-  if (ui_.shows(PanelId::description)) description_.look(described_text(), ui_.described);
+  if (ui_.shows(PanelId::description))
+    description_.look(described_text(), ui_.described, world_.frame());
 }
 
 void Application::edit_description(const EditDescription& edit) {
