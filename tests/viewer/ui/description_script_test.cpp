@@ -450,6 +450,46 @@ TEST_CASE("description: items of a list are told by what sets them apart") {
   CHECK(told(bodies.keys[0]) == "; shapes sphere, sphere, box; material steel");
 }
 
+TEST_CASE("description: how a body begins changes at once where the run has not begun") {
+  Described b(with(two_bodies, "\"position\": [0, 2, 0]",
+                   "\"position\": [0, 2, 0], \"velocity\": [0, 0, 0]"));
+  const World* const before = &b.world();
+  b.go("bodies.ball");
+  b.type_in("position.y", "3");
+  b.type_in("velocity.x", "1.5");
+  CHECK(&b.world() == before);  // without being opened anew
+  CHECK(place(b, "ball").y() == 3);
+  const uint64_t now = b.hash();
+  const std::string text = b.saved();
+  // Numbers beside the one that was changed stay as they are written.
+  CHECK(text == with(b.start, R"([0, 2, 0], "velocity": [0, 0, 0] })",
+                     R"([0, 3.0, 0], "velocity": [1.5, 0, 0] })"));
+  for (int i = 0; i < 2; ++i) b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.hash() == b.start_hash);
+  CHECK(b.saved() == b.start);
+  // Opened from the file, the world is the same.
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(&b.world() != before);
+  CHECK(b.hash() == now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: what takes its place from a body is placed anew with it") {
+  Described b(two_bodies + R"(,
+  "joints": { "pivot": { "kind": "spherical", "b": "ball", "anchor": [0, 3, 0] } })");
+  b.go("bodies.ball");
+  b.type_in("position.y", "2.5");
+  const uint64_t now = b.hash();
+  const std::string text = b.saved();
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == now);
+  check_no_faults(*b.device);
+}
+
 TEST_CASE("description: parts of robots are chosen by name, and so are joints of their files") {
   Described b(two_bodies + R"(,
   "robots": { "arm": { "file": "robots/arm.urdf", "position": [3, 0, 0] } })");
