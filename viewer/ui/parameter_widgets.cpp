@@ -9,10 +9,12 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 namespace tumble {
 namespace {
@@ -51,6 +53,38 @@ std::string label_of(std::string_view name) {
   for (char& c : label)
     if (c == '_' || c == '.') c = ' ';  // the point separates the index within a list
   return label;
+}
+
+std::optional<std::string> typed_text(PanelContext& context, const std::string& mark,
+                                      const std::string& now, float width) {
+  TypedValue& typing = context.state.typing;
+  std::string text = now;
+  ImGui::SetNextItemWidth(width);
+  ImGui::InputText(("##" + mark).c_str(), &text, ImGuiInputTextFlags_AutoSelectAll);
+  context.host.mark(mark);
+  if (ImGui::IsItemActive()) typing = {mark, text};
+  if (!ImGui::IsItemDeactivated() || typing.field != mark) return std::nullopt;
+  std::string last = std::exchange(typing, {}).text;
+  if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) return std::nullopt;
+  // Left by Enter it has given the text, left by a click elsewhere it has forgotten it already.
+  if (text != now) last = std::move(text);
+  return last == now ? std::nullopt : std::optional(std::move(last));
+}
+
+std::optional<std::string> name_list(PanelContext& context, const std::string& mark,
+                                     std::span<const std::string> names) {
+  std::optional<std::string> chosen;
+  ImGui::SameLine(0, 0);
+  if (ImGui::BeginCombo(("##names" + mark).c_str(), nullptr,
+                        ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+    for (const std::string& name : names) {
+      if (ImGui::Selectable(name.c_str())) chosen = name;
+      context.host.mark(mark + "." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context.host.mark(mark + ".names");
+  return chosen;
 }
 
 std::string words_of(std::string_view name) {

@@ -22,6 +22,15 @@ std::string words_of(std::string_view name);
 /// A unit as text: "m/s2" gives "m/s²".
 std::string unit_words(std::string_view unit);
 
+/// A field for a text of any length; the text that was typed, once, when the field is left with
+/// another one than `now`, but for Esc. Its widget is called `mark`.
+std::optional<std::string> typed_text(PanelContext& context, const std::string& mark,
+                                      const std::string& now, float width);
+/// Behind such a field: an arrow that opens the list of what it may say; what was chosen there.
+/// Its widget is called "MARK.names", each entry "MARK.NAME".
+std::optional<std::string> name_list(PanelContext& context, const std::string& mark,
+                                     std::span<const std::string> names);
+
 /// A widget for each declared parameter (core/parameters.hpp) with its unit, range and help: a
 /// visitor of a definition's declaration. Values outside the range are rejected, and the reason is
 /// shown below the field for some seconds.

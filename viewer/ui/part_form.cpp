@@ -1,5 +1,7 @@
 #include "viewer/ui/part_form.hpp"
 
+#include "engine/scene/description.hpp"
+#include "engine/scene/saving/naming_keys.hpp"
 #include "engine/scene/visitors/known_names.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
@@ -12,6 +14,26 @@
 
 namespace tumble {
 namespace {
+
+/// What something in a list of the scene is called, to be chosen where it is named.
+std::vector<std::string> names_in_world(const PanelContext& context, std::string_view list) {
+  std::vector<std::string> out;
+  const Frame& frame = *context.model.frame;
+  const auto take = [&](const std::string& name) {
+    if (!name.empty()) out.push_back(name);
+  };
+  if (list == "bodies")
+    for (size_t slot = 0; slot < frame.body_slots(); ++slot)
+      if (!frame.body(slot).id.is_null()) take(frame.info(slot).name);
+  if (list == "joints")
+    for (const JointFrame& joint : *frame.joints) take(joint.name);
+  const SceneDescription* parts = context.model.parts.get();
+  if (parts && list == "particles")
+    for (const auto& item : parts->particles.items) take(item.name);
+  if (parts && list == "emitters")
+    for (const auto& item : parts->emitters.items) take(item.name);
+  return out;
+}
 
 /// Widgets for descriptions of parts, including nested objects, choices of kinds, and lists.
 class PartWidgets : public ParameterWidgets {
@@ -26,13 +48,15 @@ class PartWidgets : public ParameterWidgets {
   void field(std::string& value, const Parameter& p) {
     if (!known_names(p.name).empty()) return ParameterWidgets::field(value, p);
     begin(p);
-    char text[64] = {};
-    value.copy(text, sizeof text - 1);
-    if (ImGui::InputText(id(p), text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue)) {
-      value = text;
-      note_change(p);
-    }
-    end(p);
+    const std::vector<std::string> names = names_in_world(context_, list_named_by(p.name));
+    const float arrow = names.empty() ? 0 : ImGui::GetFrameHeight();
+    auto said = typed_text(context_, mark_name(p), value, ImGui::CalcItemWidth() - arrow);
+    tooltip_with_key(context_, p.doc, {});
+    if (!names.empty())
+      if (auto chosen = name_list(context_, mark_name(p), names)) said = std::move(chosen);
+    if (!said) return;
+    value = *std::move(said);
+    note_change(p);
   }
   void field(uint64_t& value, const Parameter& p) {
     auto v = int(std::min<uint64_t>(value, 1'000'000));

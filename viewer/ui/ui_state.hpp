@@ -396,7 +396,7 @@ struct RefusedValue {
   double until = 0;   ///< when the reason stops being shown, on Dear ImGui's clock [s]
 };
 
-/// What is being typed, or pulled, into a field of the description; given when the field is left.
+/// What is being typed, or pulled, into a field that gives its text when it is left.
 struct TypedValue {
   std::string field;  ///< the mark of its widget; "": none
   std::string text;
@@ -414,7 +414,7 @@ struct UiState {
   bool choosing_mesh = false;                       ///< the files are for the palette
   ChosenPart part;                                  ///< whose values are shown
   ScenePath described;                              ///< what of the scene is shown
-  TypedValue describing;                            ///< in one of its fields
+  TypedValue typing;                                ///< in a field for text
   HandleSettings handles;                           ///< at the selected bodies
   ComparedAs compared_as = ComparedAs::ghost;       ///< how world B is shown
   PlotChoice plot;                                  ///< of the curves

@@ -171,8 +171,10 @@ bool word_button(PanelContext& context, std::string_view name, const char* text,
 
 bool panel_heading(PanelContext& context, const PanelEntry& panel) {
   const bool large = panel.dock == Dock::centre;
+  const bool of_mesh = panel.id == PanelId::scenes && context.state.choosing_mesh;
+  const std::string_view title = of_mesh ? "Choose a mesh" : panel.title;
   ImGui::PushFont(large ? context.host.fonts().large : context.host.fonts().strong);
-  ImGui::TextUnformatted(panel.title.data(), panel.title.data() + panel.title.size());
+  ImGui::TextUnformatted(title.data(), title.data() + title.size());
   ImGui::PopFont();
   const float size = 20;
   const std::string shortcut = panel.toggle ? shortcut_of(*panel.toggle) : std::string();

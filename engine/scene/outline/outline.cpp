@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -14,12 +15,22 @@ namespace {
 
 using Kind = JsonNode::Kind;
 
+constexpr size_t longest_words = 40;  ///< letters that a line of a panel has room for, about
+
+std::string short_text(std::string text) {
+  return text.size() <= longest_words ? text : text.substr(0, longest_words - 3) + "...";
+}
+
+/// The word of the declarations for what an object is, where it says one.
+std::string kind_of(const JsonNode& object) {
+  for (const char* key : {"type", "kind"})
+    if (const JsonNode* said = object.find(key); said && said->is(Kind::string))
+      return short_text(said->string);
+  return {};
+}
+
 /// What stands in few words for something with parts.
 std::string summary_of(const Member& what, const JsonNode& node) {
-  constexpr size_t longest = 40;
-  const auto short_text = [](std::string text) {
-    return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
-  };
   if (!node.is(Kind::object) && !node.is(Kind::array)) return one_line(node);
   if (what.kind == MemberKind::values) return short_text(one_line(node));
   if (what.kind == MemberKind::list) {
@@ -29,15 +40,74 @@ std::string summary_of(const Member& what, const JsonNode& node) {
   if (what.kind == MemberKind::map) {
     std::string names;
     for (const std::string& name : node.keys) {
-      if (names.size() > longest) break;
+      if (names.size() > longest_words) break;
       names += (names.empty() ? "" : ", ") + name;
     }
     return short_text(std::move(names));
   }
-  for (const char* key : {"type", "kind", "title", "file"})
-    if (const JsonNode* said = node.find(key); said && said->is(Kind::string))
-      return short_text(said->string);
-  return short_text(one_line(node));
+  return kind_of(node);
+}
+
+std::string joined(std::span<const std::string> words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+/// A value in few words: "0.5", "0, 1, 0"; of objects what they are, or what they speak of. "": it
+/// takes more than that.
+std::string plain_value(const JsonNode& node) {
+  if (node.is(Kind::object)) {
+    std::string kind = kind_of(node);
+    return kind.empty() ? short_text(joined(node.keys)) : kind;
+  }
+  if (node.is(Kind::string)) return short_text(node.string);
+  if (!node.is(Kind::array)) return one_line(node);
+  std::vector<std::string> items;
+  for (const JsonNode& item : node.items) {
+    items.push_back(item.is(Kind::object) ? kind_of(item) : plain_value(item));
+    if (items.back().empty() || item.is(Kind::array)) return {};
+  }
+  return short_text(joined(items));
+}
+
+/// The keys of which all items of a list say the same.
+std::vector<std::string> common_keys(std::span<const JsonNode> items) {
+  std::vector<std::string> out;
+  if (items.empty() || !items[0].is(Kind::object)) return out;
+  for (size_t k = 0; k < items[0].keys.size(); ++k) {
+    const std::string& key = items[0].keys[k];
+    const std::string text = one_line(items[0].items[k]);
+    if (std::ranges::all_of(items, [&](const JsonNode& item) {
+          const JsonNode* there = item.is(Kind::object) ? item.find(key) : nullptr;
+          return there && one_line(*there) == text;
+        }))
+      out.push_back(key);
+  }
+  return out;
+}
+
+/// The values of an object that can be said in few words: those that its neighbours in a list do
+/// not have in common with it, or all where there are none of these. Words come before numbers.
+std::vector<ToldValue> told_of(const Member& what, const JsonNode& object,
+                               const std::vector<std::string>& common) {
+  if (what.kind != MemberKind::object || !what.type || !object.is(Kind::object)) return {};
+  const std::string kind = kind_of(object);
+  std::vector<ToldValue> all, telling;
+  for (const Member& member : members_of(*what.type, &object)) {
+    const JsonNode* value = object.find(member.name);
+    std::string words = value ? plain_value(*value) : std::string();
+    const bool is_kind = !kind.empty() && (member.name == "type" || member.name == "kind");
+    if (words.empty() || is_kind) continue;
+    const bool chosen = member.kind == MemberKind::choice ||
+                        (member.has_parts() && member.kind != MemberKind::values);
+    all.push_back({member.name, member.unit, std::move(words), chosen});
+    if (std::ranges::find(common, member.name) == common.end()) telling.push_back(all.back());
+  }
+  if (!telling.empty()) all = std::move(telling);
+  // What something is says more than where it is.
+  std::ranges::stable_partition(all, &ToldValue::choice);
+  return all;
 }
 
 Member item_of(const Member& several, std::string name) {
@@ -152,12 +222,14 @@ void collect_names(const JsonNode& scene, const Member& what, Outline& out) {
   out.names.emplace_back(list, names_in(scene, list));
 }
 
-void add_key(Outline& out, const JsonNode& scene, Member what, const JsonNode* node) {
+void add_key(Outline& out, const JsonNode& scene, Member what, const JsonNode* node,
+             const std::vector<std::string>& common = {}) {
   OutlineKey key;
   key.what = std::move(what);
   if (node) {
     key.text = one_line(*node);
     if (key.what.has_parts()) key.summary = summary_of(key.what, *node);
+    key.told = told_of(key.what, *node, common);
   }
   collect_names(scene, key.what, out);
   out.keys.push_back(std::move(key));
@@ -233,8 +305,12 @@ Outline outline_of(const JsonNode& scene, ScenePath path) {
     path.pop_back();
     place = place_of(scene, path);
   }
-  Outline out{
-      std::move(path), place->what, place->node != nullptr, place->named, place->numbered, {}, {}};
+  Outline out;
+  out.path = std::move(path);
+  out.what = place->what;
+  out.there = place->node != nullptr;
+  out.named = place->named;
+  out.numbered = place->numbered;
   const JsonNode& node = *place->node;
   if (out.what.kind == MemberKind::object) {
     const bool bare = !node.is(Kind::object);
@@ -250,9 +326,10 @@ Outline outline_of(const JsonNode& scene, ScenePath path) {
       add_key(out, scene, item_of(out.what, node.keys[i]), &node.items[i]);
   } else {
     const bool alone = !node.is(Kind::array);
-    for (size_t i = 0; i < (alone ? 1 : node.items.size()); ++i)
-      add_key(out, scene, item_of(out.what, fmt::format("[{}]", i)),
-              alone ? &node : &node.items[i]);
+    const std::span<const JsonNode> items = alone ? std::span(&node, 1) : std::span(node.items);
+    const std::vector<std::string> common = common_keys(items);
+    for (size_t i = 0; i < items.size(); ++i)
+      add_key(out, scene, item_of(out.what, fmt::format("[{}]", i)), &items[i], common);
   }
   return out;
 }

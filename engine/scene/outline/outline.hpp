@@ -43,11 +43,19 @@ struct Place {
 /// Nothing where the declarations know no such place.
 std::optional<Place> place_of(const JsonNode& scene, const ScenePath& path);
 
+/// What something with parts says of itself in few words: "radius", "m", "0.5".
+struct ToldValue {
+  std::string key, unit, value;
+  bool choice = false;  ///< it is a word of the declarations, or several
+};
 /// One key of an object, or one item of a list, a map or several values.
 struct OutlineKey {
   Member what;
   std::string text;     ///< the value as the file has it, on one line; "": it is not there
-  std::string summary;  ///< of what has parts: "3 items", "sphere"
+  std::string summary;  ///< of what has parts: "3 items", "sphere"; "": its kind has no word
+  /// Of an object: the plain values that set it apart from the others in its list, or all of them
+  /// where none does.
+  std::vector<ToldValue> told;
   bool present() const { return !text.empty(); }
 };
 /// All that can be read and changed about one place of a scene.
@@ -59,6 +67,8 @@ struct Outline {
   /// Names that a text of `refers_to` can be, by list.
   std::vector<std::string> names_of(std::string_view list) const;
   std::vector<std::pair<std::string, std::vector<std::string>>> names;
+  /// What this, or what is added to it, may be called, where another file has the names.
+  std::vector<std::string> own_names;
 };
 /// Of the nearest place around `path` that is there and has parts.
 Outline outline_of(const JsonNode& scene, ScenePath path);

@@ -16,11 +16,22 @@ bool list_of_objects(const Json& value) {
          std::ranges::all_of(value, [](const Json& item) { return item.is_object(); });
 }
 
+bool list_of_numbers(const Json& value) {
+  return value.is_array() && !value.empty() &&
+         std::ranges::all_of(value, [](const Json& item) { return item.is_number(); });
+}
+
 }  // namespace
 
 void FileChanges::set(const Path& path, const Json& value) {
   if (edit.set(path, one_line(value))) return;
   left_out.push_back(fmt::format("{}: there is no place for it in the file", path.back().key));
+}
+
+size_t FileChanges::size_in_file(const Path& array) const {
+  size_t count = 0;
+  while (edit.value(at_index(array, count))) ++count;
+  return count;
 }
 
 void FileChanges::merge(const Path& path, const Json& before, const Json& after) {
@@ -30,13 +41,21 @@ void FileChanges::merge(const Path& path, const Json& before, const Json& after)
     const Path own = path / item.key();
     const Json was = old == before.end() ? Json() : *old;
     const auto text = edit.value(own);
+    const bool bracketed = text && text->starts_with('[');
     if (item.value().is_object() && (!text || text->starts_with('{')))
       merge(own, was.is_object() ? was : Json::object(), item.value());
     else if (text && list_of_objects(was) && list_of_objects(item.value()) &&
-             was.size() == item.value().size() && (was.size() == 1 || text->starts_with('[')))
+             was.size() == item.value().size() && (was.size() == 1 || bracketed))
       for (size_t i = 0; i < was.size(); ++i)  // a single one may be without brackets
-        merge(text->starts_with('[') ? at_index(own, i) : own, was[i], item.value()[i]);
-    else
+        merge(bracketed ? at_index(own, i) : own, was[i], item.value()[i]);
+    else if (bracketed && list_of_numbers(item.value()) &&
+             size_in_file(own) == item.value().size()) {
+      for (size_t i = 0; i < item.value().size(); ++i) {
+        const Path number = at_index(own, i);
+        if (Json::parse(*edit.value(number), nullptr, false) != item.value()[i])
+          set(number, item.value()[i]);  // the others stay as they are written
+      }
+    } else
       set(own, item.value());
   }
   for (const auto& item : before.items())

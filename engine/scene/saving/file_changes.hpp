@@ -53,8 +53,10 @@ struct FileChanges {
   };
 
   void set(const Path& path, const Json& value);
-  /// Sets the members in which two objects differ; members that have their default value now are
-  /// removed.
+  /// The number of items of an array of the file.
+  size_t size_in_file(const Path& array) const;
+  /// Sets the members in which two objects differ, and of vectors the numbers that the file says
+  /// otherwise; members that have their default value now are removed.
   void merge(const Path& path, const Json& before, const Json& after);
   /// The same for a drive along a coordinate: a changed value is given in one unit only.
   void merge_drive(const Path& path, const Json& before, const Json& after, bool angle);

@@ -426,3 +426,31 @@ TEST_CASE("what the file says once for all copies cannot be changed in the panel
   CHECK(b.world().body(id)->mass == doctest::Approx(77));
   check_no_faults(*b.device);
 }
+
+TEST_CASE("building ends when its panel is closed by its button") {
+  Laboratory b;
+  b.play("click build.revolute\nwait 2\nclick build.close\nwait 2");
+  CHECK_FALSE(b.rig.app->ui_state().building);
+  b.play("key B\nwait 2\nclick build.box\nwait 2\nclick build.close\nwait 2\nclick " +
+         b.at({0, 0, 3.5}) + "\nwait 3");
+  CHECK(b.hash() == b.start_hash);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE(
+    "what a part names is chosen from what the scene has, and typed text is taken when left") {
+  Laboratory b;
+  b.body("sphere", "sphere");
+  b.play("key X\nwait 2\nkey X\nwait 2");
+  b.body("box", "box");
+  b.part("emitter", b.at({0, 0, 1}));
+  const auto emitter = [&] { return *saved_scene(b).emitters.find("emitter"); };
+  REQUIRE(emitter().body == "box");
+  b.play("click part.body.names\nwait 2\nclick part.body.sphere\nwait 4");
+  CHECK(emitter().body == "sphere");
+  b.play("click part.carrier\nwait 2\ntext box\nclick parts.emitters.emitter\nwait 4");
+  CHECK(emitter().carrier == "box");
+  b.play("click part.carrier\nwait 2\ntext nonsense\nkey Esc\nwait 4");
+  CHECK(emitter().carrier == "box");
+  check_no_faults(*b.device);
+}

@@ -1,6 +1,7 @@
 // All that the scene's file says, changed in the window by pointer and keys. Reference: the file as
 // it would be written by hand, byte for byte; states of the world before and after.
 #include "engine/scene/build.hpp"
+#include "engine/scene/outline/outline.hpp"
 #include "tests/viewer/ui/laboratory.hpp"
 
 #include <algorithm>
@@ -421,5 +422,94 @@ TEST_CASE("description: long numbers get a line of their own, and all of a text 
   b.go("bodies.ball.look");
   b.play("move description.label\nwait 40");
   CHECK(b.rig.app->ui().widgets().at("tooltip").height > 45);  // three lines: two of text, and help
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: items of a list are told by what sets them apart") {
+  FaultList faults;
+  const auto scene = parse_json(R"({ "bodies": { "ball": { "material": "steel", "shapes": [
+    { "type": "sphere", "radius": 0.2, "material": "wood" },
+    { "type": "sphere", "radius": 0.1, "material": "wood", "position": [0, 1, 0] },
+    { "type": "box", "size": [1, 2, 3], "material": "wood" }] } } })",
+                                "", faults);
+  REQUIRE(scene);
+  const auto told = [](const OutlineKey& key) {
+    std::string out = key.summary;
+    for (const ToldValue& one : key.told)
+      out += "; " + one.key + " " + one.value + (one.unit.empty() ? "" : " " + one.unit);
+    return out;
+  };
+  const ScenePath ball = ScenePath{} / "bodies" / "ball";
+  const Outline shapes = outline_of(*scene, ball / "shapes");
+  REQUIRE(shapes.keys.size() == 3);
+  CHECK(told(shapes.keys[0]) == "sphere; radius 0.2 m");
+  CHECK(told(shapes.keys[1]) == "sphere; radius 0.1 m; position 0, 1, 0 m");
+  CHECK(told(shapes.keys[2]) == "box; size 1, 2, 3 m");
+  // What stands alone says all that it can in few words, first what it is made of.
+  const Outline bodies = outline_of(*scene, ScenePath{} / "bodies");
+  CHECK(told(bodies.keys[0]) == "; shapes sphere, sphere, box; material steel");
+}
+
+TEST_CASE("description: how a body begins changes at once where the run has not begun") {
+  Described b(with(two_bodies, "\"position\": [0, 2, 0]",
+                   "\"position\": [0, 2, 0], \"velocity\": [0, 0, 0]"));
+  const World* const before = &b.world();
+  b.go("bodies.ball");
+  b.type_in("position.y", "3");
+  b.type_in("velocity.x", "1.5");
+  CHECK(&b.world() == before);  // without being opened anew
+  CHECK(place(b, "ball").y() == 3);
+  const uint64_t now = b.hash();
+  const std::string text = b.saved();
+  // Numbers beside the one that was changed stay as they are written.
+  CHECK(text == with(b.start, R"([0, 2, 0], "velocity": [0, 0, 0] })",
+                     R"([0, 3.0, 0], "velocity": [1.5, 0, 0] })"));
+  for (int i = 0; i < 2; ++i) b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.hash() == b.start_hash);
+  CHECK(b.saved() == b.start);
+  // Opened from the file, the world is the same.
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(&b.world() != before);
+  CHECK(b.hash() == now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: what takes its place from a body is placed anew with it") {
+  Described b(two_bodies + R"(,
+  "joints": { "pivot": { "kind": "spherical", "b": "ball", "anchor": [0, 3, 0] } })");
+  b.go("bodies.ball");
+  b.type_in("position.y", "2.5");
+  const uint64_t now = b.hash();
+  const std::string text = b.saved();
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: parts of robots are chosen by name, and so are joints of their files") {
+  Described b(two_bodies + R"(,
+  "robots": { "arm": { "file": "robots/arm.urdf", "position": [3, 0, 0] } })");
+  REQUIRE_FALSE(b.world().find_body("arm_base").is_null());
+  b.go("cameras.main");
+  b.add("follow");
+  b.choose("follow", "arm_base", ".names");
+  CHECK_FALSE(b.faulty());
+  CHECK(b.saved().find(R"("follow": "arm_base")") != std::string::npos);
+  b.go("robots.arm");
+  b.add("start_deg");
+  b.play("click description.add\nwait 2");
+  CHECK(b.rig.app->locate("description.add.pan").has_value());
+  b.play("click description.add.elbow\nwait 4");
+  CHECK_FALSE(b.faulty());
+  CHECK(b.saved().find(R"("start_deg": { "elbow": )") != std::string::npos);
+  // One that is there already is not offered again.
+  b.go("robots.arm.start_deg");
+  b.play("click description.add\nwait 2");
+  CHECK_FALSE(b.rig.app->locate("description.add.elbow").has_value());
+  CHECK(b.rig.app->locate("description.add.lift").has_value());
   check_no_faults(*b.device);
 }

@@ -2,6 +2,7 @@
 
 #include "engine/scene/outline/outline_edits.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/world/frame.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -105,9 +106,62 @@ Result<DescriptionController::Changed> carried_out(const std::string& text,
   return out;
 }
 
+/// Bodies or joints of the world of which the scene's file says nothing itself: in a scene with
+/// robots these are theirs.
+std::vector<std::string> parts_of_robots(const JsonNode& scene, std::string_view list,
+                                         const Frame& world) {
+  std::vector<std::string> out;
+  const auto take = [&](const std::string& name) {
+    const std::string base = name.substr(0, name.find('['));
+    const auto has = [&](std::string_view key) {
+      const JsonNode* all = scene.find(key);
+      return all && all->find(base);
+    };
+    if (!name.empty() && !has(list) && !has("emitters")) out.push_back(name);
+  };
+  if (list == "bodies")
+    for (size_t slot = 0; slot < world.body_slots(); ++slot)
+      if (!world.body(slot).id.is_null()) take(world.info(slot).name);
+  if (list == "joints")
+    for (const JointFrame& joint : *world.joints) take(joint.name);
+  return out;
+}
+
+/// What the joints of a robot are called in its own file: those that turn where angles are asked
+/// for, else those that slide.
+std::vector<std::string> own_joints(const JsonNode& scene, const ScenePath& path,
+                                    const Frame& world) {
+  if (path.size() < 3 || path[0].key != "robots") return {};
+  const std::string& robot = path[1].key;
+  const bool turning = path[2].key.ends_with("_deg");
+  if (path[2].key != "start" && path[2].key != "target" && !turning) return {};
+  std::string prefix = robot + "_";
+  if (const auto said = place_of(scene, ScenePath{} / "robots" / robot / "prefix");
+      said && said->node)
+    prefix = said->node->string;
+  const JointKind kind = turning ? JointKind::revolute : JointKind::prismatic;
+  const auto map = place_of(scene, {path.begin(), path.begin() + 3});
+  std::vector<std::string> out;
+  for (const JointFrame& joint : *world.joints) {
+    if (joint.kind != kind || !joint.name.starts_with(prefix)) continue;
+    const std::string name = joint.name.substr(prefix.size());
+    if (!map || !map->node || !map->node->find(name)) out.push_back(name);
+  }
+  return out;
+}
+
+/// The names that stand in files of robots, which the scene's file does not have.
+void add_names_of_robots(const JsonNode& scene, const Frame& world, Outline& outline) {
+  const JsonNode* robots = scene.find("robots");
+  if (!robots || robots->keys.empty()) return;
+  for (auto& [list, names] : outline.names)
+    for (std::string& name : parts_of_robots(scene, list, world)) names.push_back(std::move(name));
+  outline.own_names = own_joints(scene, outline.path, world);
+}
+
 }  // namespace
 
-void DescriptionController::look(const std::string& text, ScenePath& place) {
+void DescriptionController::look(const std::string& text, ScenePath& place, const Frame& world) {
   std::string now = text;
   if (!draft_.empty())
     if (auto drafted = with_draft(text)) now = std::move(drafted->text);
@@ -117,8 +171,10 @@ void DescriptionController::look(const std::string& text, ScenePath& place) {
   const auto tree = now.empty() ? std::nullopt : parsed(now);
   view_.outline = nullptr;
   if (tree && tree->is(JsonNode::Kind::object)) {
-    view_.outline = std::make_shared<const Outline>(outline_of(*tree, place));
-    place = view_.outline->path;
+    auto outline = std::make_shared<Outline>(outline_of(*tree, place));
+    add_names_of_robots(*tree, world, *outline);
+    place = outline->path;
+    view_.outline = std::move(outline);
   }
   shown_text_ = std::move(now);
   shown_ = place;

@@ -9,6 +9,8 @@
 
 namespace tumble {
 
+struct Frame;
+
 /// The text of the scene's file as it is shown and changed value by value. A change that makes a
 /// scene is taken at once; one that the reader refuses is kept as a draft, with what is wrong, and
 /// so are those that follow, until together they make a scene: nothing that was typed is lost.
@@ -17,8 +19,9 @@ class DescriptionController {
   /// Another scene is shown.
   void forget() { *this = DescriptionController{}; }
   /// Called once a picture: `text` as the scene's file would be now, and the place that is looked
-  /// at, which becomes the nearest one that is there.
-  void look(const std::string& text, ScenePath& place);
+  /// at, which becomes the nearest one that is there. `world`: has what robots of the scene bring
+  /// along from files of their own.
+  void look(const std::string& text, ScenePath& place, const Frame& world);
   /// Null: there is no text.
   const DescriptionView* view() const { return view_.outline ? &view_ : nullptr; }
 

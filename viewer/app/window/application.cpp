@@ -314,6 +314,7 @@ Status Application::frame(std::span<const InputEvent> input, double dt, const Pi
   camera_.stay_above(canvas_.picture().ground);
   route(events, dt);
   for (const UiRequest& request : requests) apply(request);
+  if (ui_.building && !ui_.shows(PanelId::build)) end_building();  // closed by its button
   host_.end(layout_.panels);
   if (ui_.shows(PanelId::scenes))
     thumbnails_.update(options_.scenes, ui_.seen_scenes, canvas_.renderer());

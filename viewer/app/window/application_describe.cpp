@@ -3,6 +3,7 @@
 #include "engine/scene/build/live_parts.hpp"
 #include "engine/scene/outline/outline_edits.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/scene/saving/dependents.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
@@ -40,19 +41,28 @@ std::optional<BodyDef> described_body(const SceneDescription& scene, const std::
 /// Whether a body begins at the same place with the same motion.
 bool begin_alike(const BodyDef& a, const BodyDef& b) {
   return a.pose.x == b.pose.x && a.pose.q.coeffs() == b.pose.q.coeffs() &&
-         a.velocity == b.velocity && a.angular_velocity == b.angular_velocity &&
-         a.starts_asleep == b.starts_asleep && !a.course && !b.course;
+         a.velocity == b.velocity && a.angular_velocity == b.angular_velocity;
+}
+
+/// Whether nothing in the scene takes its own place from that of this body, as anchors of joints
+/// and springs do and what fills a fluid.
+bool begins_alone(const SceneDescription& scene, const std::string& text, const std::string& name) {
+  return scene.particles.items.empty() && taken_along(text, {}, RemovedBody{name}).empty();
 }
 
 /// Gives a body of the running world the values in which two descriptions differ, one of whose keys
-/// was changed. Its motion, which begins alike in both, goes on.
+/// was changed. Its motion goes on where it begins alike in both; at the first tick it begins
+/// anew.
 void carry_over(BodyDef& def, const BodyDef& before, const BodyDef& after, std::string_view key) {
   const auto carry = [&](auto... members) {
     ((before.*members == after.*members ? void() : void(def.*members = after.*members)), ...);
   };
-  carry(&BodyDef::type, &BodyDef::mass, &BodyDef::inertia, &BodyDef::products, &BodyDef::centre,
-        &BodyDef::group, &BodyDef::gravity_scale, &BodyDef::fluid_friction, &BodyDef::can_sleep,
-        &BodyDef::precise, &BodyDef::hull_mass);
+  carry(&BodyDef::type, &BodyDef::velocity, &BodyDef::angular_velocity, &BodyDef::mass,
+        &BodyDef::inertia, &BodyDef::products, &BodyDef::centre, &BodyDef::group,
+        &BodyDef::gravity_scale, &BodyDef::fluid_friction, &BodyDef::can_sleep, &BodyDef::precise,
+        &BodyDef::hull_mass);
+  if (!(before.pose.x == after.pose.x)) def.pose.x = after.pose.x;
+  if (!(before.pose.q.coeffs() == after.pose.q.coeffs())) def.pose.q = after.pose.q;
   if (key == "shape" || key == "shapes" || key == "material" || key == "density")
     def.shapes = after.shapes;
   if (key == "colour" || key == "look") def.look = after.look;
@@ -102,7 +112,8 @@ std::string Application::described_text() {
 
 /// Called once a picture.
 void Application::look_at_description() {
-  if (ui_.shows(PanelId::description)) description_.look(described_text(), ui_.described);
+  if (ui_.shows(PanelId::description))
+    description_.look(described_text(), ui_.described, world_.frame());
 }
 
 void Application::edit_description(const EditDescription& edit) {
@@ -118,7 +129,10 @@ void Application::edit_description(const EditDescription& edit) {
   if (!done->faults.empty())
     return description_.keep(edit, std::move(done->faults), false, undo_steps);
   const std::string what = undo_step_of(edit);
-  if (alone && describe_live(now, done->text, edit.path, what)) return;
+  if (alone && describe_live(now, done->text, edit.path, what)) {
+    // The panel shows the new value from now on, not when unsaved work is next looked at.
+    return undo_steps_.finish(session(), options_.own_thread);
+  }
   for (const EditDescription& earlier : description_.draft())
     keep_up_choices(after.overrides, earlier);
   keep_up_choices(after.overrides, edit);
@@ -165,7 +179,8 @@ bool Application::describe_live(const std::string& before, const std::string& af
   return true;
 }
 
-/// The same for a value of one body, unless it says where and how it begins.
+/// The same for a value of one body. Where and how it begins can only be changed so before the
+/// first tick; later the run is another one.
 bool Application::describe_body_live(const std::string& before, const std::string& after,
                                      const ScenePath& path, const std::string& what) {
   if (path.size() < 3 || path[2].key == "drawn") return false;
@@ -174,7 +189,10 @@ bool Application::describe_body_live(const std::string& before, const std::strin
   if (!old.ok() || !now.ok()) return false;
   const std::string& name = path[1].key;
   const auto was = described_body(old.scene, name), is = described_body(now.scene, name);
-  if (!was || !is || !begin_alike(*was, *is)) return false;
+  if (!was || !is || was->course || is->course || was->starts_asleep != is->starts_asleep)
+    return false;
+  const bool at_start = world_.frame().tick == 0 && session().paused();
+  if (!begin_alike(*was, *is) && !(at_start && begins_alone(old.scene, before, name))) return false;
   if (!says_same(before, scene_.file.path, ChangedBody{name, *was, *is}, after)) return false;
   const Frame& frame = world_.frame();
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {

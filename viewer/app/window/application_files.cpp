@@ -140,9 +140,12 @@ void Application::finish_opening(SceneOpening::Opened done) {
   description_.count_undo_steps_anew();
   renaming_.reset();
   const SceneCamera camera = camera_;
+  // A new scene has nothing to simulate: it stands still from its first tick on.
+  const bool empty = !same && opened->file.unnamed;
+  if (empty) session().set_paused(true);
   show(std::move(*opened), same);
   keep_choices(cause);
-  if (!same && scene_.file.unnamed) begin_building();
+  if (empty) begin_building();
   if (!same) return;
   for (const BodyId id : looked_at.selected) selection_.add(id);
   for (const Quantity& quantity : looked_at.curves)
@@ -155,9 +158,8 @@ void Application::finish_opening(SceneOpening::Opened done) {
   session().set_paused(paused);
 }
 
-/// A new scene has nothing to simulate: it stays paused.
+/// Says how one begins in a new scene.
 void Application::begin_building() {
-  session().set_paused(true);
   if (options_.hints)
     ui_.toast(ToastKind::info, "A new scene, standing still",
               {fmt::format("{} has what one builds of, {} lets it run.",

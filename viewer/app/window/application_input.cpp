@@ -222,6 +222,7 @@ void Application::open_inspector() {
 /// The thing built last is selected, and its panel is shown now that it covers no place to click.
 void Application::end_building() {
   ui_.building = false;
+  tools_.builder.cancel();
   if (!selection_.empty()) open_inspector();
 }
 

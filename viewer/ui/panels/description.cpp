@@ -35,6 +35,19 @@ std::string key_label(const Outline& outline, const Member& what) {
   return outline.what.kind == MemberKind::object ? label_of(what.name) : what.name;
 }
 
+/// Something with parts in one line: "sphere: radius 0.5 m, position 0, 1, 0 m".
+std::string words_of_parts(const OutlineKey& key) {
+  std::string out;
+  for (const ToldValue& told : key.told) {
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", label_of(told.key),
+                       told.choice ? words_of(told.value) : told.value);
+    if (!told.unit.empty()) out += " " + unit_words(told.unit);
+  }
+  const bool object = key.what.kind == MemberKind::object;
+  const std::string kind = object ? words_of(key.summary) : key.summary;
+  return kind.empty() ? out : out.empty() ? kind : kind + ": " + out;
+}
+
 /// What the declaration says, with the range.
 std::string help_of(const Member& what) {
   const std::string range = what.range();
@@ -67,6 +80,7 @@ class DescriptionForm {
 
   void row(const OutlineKey& key);
   void addition();
+  void add_named();
   void name();
 
  private:
@@ -75,7 +89,8 @@ class DescriptionForm {
   }
   void set(const ScenePath& path, const Member& what, std::string_view typed);
   void label(const OutlineKey& key);
-  bool typed(const std::string& mark, std::string now, float width, std::string& out);
+  /// Share of a line that the keys take: items of lists have short ones.
+  float label_share() const;
   void hint(const Member& what, const std::string& value, float width);
   void scalar(const OutlineKey& key, float width);
   void numbers(const OutlineKey& key, float width);
@@ -106,21 +121,12 @@ void DescriptionForm::set(const ScenePath& path, const Member& what, std::string
   context_.ask(EditDescription{path, How::set, *std::move(value)});
 }
 
-/// A field that is typed into; true, once, when it was left with another text.
-bool DescriptionForm::typed(const std::string& mark, std::string now, float width,
-                            std::string& out) {
-  TypedValue& typing = context_.state.describing;
-  const std::string before = now;
-  ImGui::SetNextItemWidth(width);
-  ImGui::InputText(("##" + mark).c_str(), &now, ImGuiInputTextFlags_AutoSelectAll);
-  context_.host.mark(mark);
-  if (ImGui::IsItemActive()) typing = {mark, now};
-  if (!ImGui::IsItemDeactivated() || typing.field != mark) return false;
-  const std::string last = std::exchange(typing, {}).text;
-  if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) return false;
-  // Left by Enter it has given the text, left by a click elsewhere it has forgotten it already.
-  out = now != before ? now : last;
-  return out != before;
+float DescriptionForm::label_share() const {
+  const bool counted = !outline_.keys.empty() && outline_.keys[0].what.name.starts_with('[');
+  if (!counted) return key_share;
+  const std::string longest = outline_.keys.back().what.name + "  ";
+  return std::min(key_share,
+                  ImGui::CalcTextSize(longest.c_str()).x / ImGui::GetContentRegionAvail().x);
 }
 
 void DescriptionForm::label(const OutlineKey& key) {
@@ -129,9 +135,10 @@ void DescriptionForm::label(const OutlineKey& key) {
   ImGui::AlignTextToFramePadding();
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  ImGui::TextUnformatted(shortened(text, width * key_share - 6).c_str());
+  const float share = label_share();
+  ImGui::TextUnformatted(shortened(text, width * share - 6).c_str());
   ImGui::PopStyleColor();
-  ImGui::SameLine(x + width * key_share);
+  ImGui::SameLine(x + width * share);
 }
 
 /// Over a field: what it means, and all of its value where the field is too short for that.
@@ -143,8 +150,8 @@ void DescriptionForm::hint(const Member& what, const std::string& value, float w
 
 void DescriptionForm::scalar(const OutlineKey& key, float width) {
   const std::string mark = description_mark(key.what), now = shown_value(key.text);
-  std::string text;
-  if (typed(mark, now, width, text)) set(below(outline_.path, key.what), key.what, text);
+  if (const auto text = typed_text(context_, mark, now, width))
+    set(below(outline_.path, key.what), key.what, *text);
   hint(key.what, now, width);
 }
 
@@ -169,9 +176,8 @@ void DescriptionForm::numbers(const OutlineKey& key, float width) {
   for (size_t k = 0; k < values.size(); ++k) {
     if (k > 0) ImGui::SameLine(0, 3);
     const std::string mark = fmt::format("{}.{}", description_mark(key.what), "xyzw"[k]);
-    std::string text;
-    if (typed(mark, values[k], each_of(width), text))
-      set(at_index(below(outline_.path, key.what), k), number, text);
+    if (const auto text = typed_text(context_, mark, values[k], each_of(width)))
+      set(at_index(below(outline_.path, key.what), k), number, *text);
     hint(key.what, values[k], each_of(width));
   }
 }
@@ -200,23 +206,14 @@ void DescriptionForm::choice(const OutlineKey& key, float width) {
 
 /// What a text may be, to be chosen instead of typed.
 void DescriptionForm::names(const OutlineKey& key, const std::vector<std::string>& all) {
-  const std::string mark = description_mark(key.what);
-  ImGui::SameLine(0, 0);
-  if (ImGui::BeginCombo(("##names" + mark).c_str(), nullptr,
-                        ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
-    for (const std::string& name : all) {
-      if (ImGui::Selectable(name.c_str())) set(below(outline_.path, key.what), key.what, name);
-      context_.host.mark(mark + "." + name);
-    }
-    ImGui::EndCombo();
-  }
-  context_.host.mark(mark + ".names");
+  if (const auto chosen = name_list(context_, description_mark(key.what), all))
+    set(below(outline_.path, key.what), key.what, *chosen);
 }
 
 /// The colour itself; pulled, it is given when it is let go.
 void DescriptionForm::swatch(const OutlineKey& key) {
   const std::string mark = description_mark(key.what) + ".swatch";
-  TypedValue& typing = context_.state.describing;
+  TypedValue& typing = context_.state.typing;
   const std::string said = typing.field == mark ? typing.text : shown_value(key.text);
   const Colour colour = colour_from_text(said).value_or(Colour{});
   float rgb[3] = {float(colour.r), float(colour.g), float(colour.b)};
@@ -238,11 +235,13 @@ void DescriptionForm::parts(const OutlineKey& key) {
   if (ImGui::Selectable(("##" + mark).c_str(), false, 0, ImVec2(width, ImGui::GetFrameHeight())))
     context_.state.described = below(outline_.path, key.what);
   context_.host.mark(mark);
-  tooltip_with_key(context_, help_of(key.what), {});
+  const std::string words = words_of_parts(key);
+  const float room = width - ImGui::GetContentRegionAvail().x * label_share() - 4;
+  hint(key.what, words, room);
   const ImVec2 next = ImGui::GetCursorPos();
   ImGui::SetCursorPos(at);
   label(key);
-  ImGui::TextUnformatted(shortened(key.summary, width * (1 - key_share) - 4).c_str());
+  ImGui::TextUnformatted(shortened(words, room).c_str());
   ImGui::SameLine(at.x + width);
   remove(key);
   ImGui::SetCursorPos(next);
@@ -311,7 +310,7 @@ void DescriptionForm::row(const OutlineKey& key) {
   const Member& what = key.what;
   if (what.has_parts() && (what.kind != MemberKind::object || key.text.starts_with('{')))
     return parts(key);
-  float width = ImGui::GetContentRegionAvail().x * (1 - key_share) - tail_width() - 2;
+  float width = ImGui::GetContentRegionAvail().x * (1 - label_share()) - tail_width() - 2;
   if (what.kind == MemberKind::truth) {
     const float x = ImGui::GetCursorPosX(), all = ImGui::GetContentRegionAvail().x;
     truth(key);
@@ -350,10 +349,26 @@ void DescriptionForm::row(const OutlineKey& key) {
   remove(key);
 }
 
+/// One more of a list whose names another file has.
+void DescriptionForm::add_named() {
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##add", "add ...")) {
+    for (const std::string& name : outline_.own_names) {
+      if (ImGui::Selectable(name.c_str()))
+        context_.ask(EditDescription{outline_.path / name, How::add, {}});
+      context_.host.mark("description.add." + name);
+    }
+    ImGui::EndCombo();
+  }
+  context_.host.mark("description.add");
+  tooltip_with_key(context_, outline_.what.doc, {});
+}
+
 /// What is not there and could be, with what it does.
 void DescriptionForm::addition() {
   if (outline_.what.kind != MemberKind::object) {
     const bool named = outline_.what.kind == MemberKind::map;
+    if (named && !outline_.own_names.empty()) return add_named();
     if (ImGui::Button("Add one")) {
       const ScenePath path =
           named ? outline_.path / "" : at_index(outline_.path, outline_.keys.size());
@@ -392,10 +407,15 @@ void DescriptionForm::name() {
   ImGui::AlignTextToFramePadding();
   small_text(context_, "name", palette::dim);
   ImGui::SameLine(64);
-  std::string text;
-  if (typed("description.name", outline_.path.back().key, -1, text))
-    context_.ask(EditDescription{outline_.path, How::rename, text});
+  const auto& all = outline_.own_names;
+  const float arrow = all.empty() ? 0 : ImGui::GetFrameHeight();
+  if (const auto text = typed_text(context_, "description.name", outline_.path.back().key,
+                                   ImGui::GetContentRegionAvail().x - arrow))
+    context_.ask(EditDescription{outline_.path, How::rename, *text});
   tooltip_with_key(context_, "what the scene calls it, wherever it is named", {});
+  if (all.empty()) return;
+  if (const auto chosen = name_list(context_, "description.name", all))
+    context_.ask(EditDescription{outline_.path, How::rename, *chosen});
 }
 
 /// From the scene down to what is shown, each step a button that leads back to it.

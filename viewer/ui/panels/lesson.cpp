@@ -1,4 +1,5 @@
 #include "viewer/ui/lesson_view.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -48,9 +49,8 @@ void draw_choices(PanelContext& context, const LessonStepView& step) {
     std::string name = choice.substr(0, is), value = choice.substr(is + 1);
     for (const char* front : {"settings.", "parameters.", "event.", "realtime."})
       if (name.starts_with(front)) name.erase(0, std::string_view(front).size());
-    std::ranges::replace(name, '_', ' ');
     std::erase(value, '"');
-    value_row(name, value, step.chosen ? palette::green : palette::accent);
+    value_row(label_of(name), words_of(value), step.chosen ? palette::green : palette::accent);
   }
   if (step.chosen) {
     small_text(context, "This is what is set now.", palette::dim);

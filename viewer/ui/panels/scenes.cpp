@@ -137,7 +137,7 @@ void take_into_palette(UiState& state, const std::string& path) {
 void draw_files(PanelContext& context, const FolderView& folder) {
   if (context.state.choosing_mesh) {
     ImGui::AlignTextToFramePadding();
-    note("A mesh to place:");
+    note("From");
   } else {
     if (ImGui::Button("To the scenes")) context.ask(BrowseFolder{});
     context.host.mark("scenes.to_scenes");
@@ -169,7 +169,8 @@ void draw_files(PanelContext& context, const FolderView& folder) {
   }
   if (!folder.fault.empty()) note("This folder cannot be read: " + folder.fault);
   if (folder.entries.empty() && folder.fault.empty())
-    note("No folders here, and no scenes, packs, robots or meshes.");
+    note(context.state.choosing_mesh ? "No folders here, and no meshes."
+                                     : "No folders here, and no scenes, packs, robots or meshes.");
   ImGui::EndChild();
 }
 
