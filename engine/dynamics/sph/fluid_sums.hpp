@@ -118,7 +118,7 @@ class FluidPairs {
   std::vector<int16_t> rounded_;
 };
 
-/// What the pairs of a particle are summed up to, which is of the particle at `points` and `of`.
+/// Sums over the pairs of a particle.
 struct FluidPairSums {
   size_t pairs;
   double share;       ///< sum of V W over the others and itself [-]
