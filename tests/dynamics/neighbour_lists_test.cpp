@@ -4,6 +4,7 @@
 #include "tests/support/scale.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <doctest/doctest.h>
 
@@ -94,6 +95,45 @@ TEST_CASE("neighbour lists hold what all pairs of points give, in periodic boxes
     x[x.size() / 2] += Vec3(0, request.skin, 0);
     CHECK(lists.update(x, request, nullptr).value());
     check_same(from_lists(lists, request.reach), all_pairs(x, request.reach, request.box));
+  }
+}
+
+TEST_CASE("the list of a group holds what is in reach of any of its points, and these") {
+  Random r(23);
+  for (int n = 0; n < test::scaled_count(20, 4); ++n) {
+    const NeighbourLists::Request request{
+        .reach = r.uniform(0.1, 0.4), .skin = r.uniform(0, 0.1), .box = {}, .by_group = true};
+    std::vector<Vec3> x =
+        cloud(r, 1 + r.below(500), {-1, 3, -2}, {r.uniform(0.1, 2), r.uniform(0.1, 2), 1});
+    NeighbourLists lists;
+    REQUIRE(lists.update(x, request, nullptr).value());
+    // Lists stay when points move by less than half of the skin.
+    for (Vec3& p : x)
+      p += 0.28 * request.skin * Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
+    CHECK(lists.update(x, request, nullptr).value() == (request.skin == 0));
+    const double longest = std::sqrt(3.0) * (request.reach + 2 * request.skin);
+    uint32_t next = 0;
+    for (const NeighbourLists::Group& g : lists.groups()) {
+      CHECK(g.first == next);
+      REQUIRE(g.count > 0);
+      REQUIRE(g.count <= NeighbourLists::group_size);
+      next += g.count;
+      const auto at = [&](size_t p) { return x[lists.order()[p]]; };
+      std::vector<uint32_t> found;
+      for (const uint32_t q : lists.of(g))
+        if (q + 1 < lists.places()) found.push_back(q);
+      CHECK(lists.of(g).size() % NeighbourLists::group_size == 0);
+      CHECK(lists.of(g).size() < found.size() + NeighbourLists::group_size);
+      std::ranges::sort(found);
+      CHECK(std::ranges::adjacent_find(found) == found.end());
+      for (uint32_t p = g.first; p < g.first + g.count; ++p) {
+        CHECK((at(p) - at(g.first)).norm() < longest);
+        CHECK(std::ranges::binary_search(found, p));
+        for (uint32_t q = 0; q < lists.size(); ++q)
+          if ((at(q) - at(p)).norm() <= request.reach) CHECK(std::ranges::binary_search(found, q));
+      }
+    }
+    CHECK(next == x.size());
   }
 }
 

@@ -92,17 +92,16 @@ class FluidTickRun {
 
   Status sub_step(bool last) {
     FluidState& s = s_;
-    // A skin makes lists longer: only where the next sub-step can have them too.
+    const bool implicit = s.common.solver == FluidSolverKind::dfsph;
+    // A skin makes lists longer: only where the next sub-step can have them too, and where sums
+    // over them are few.
     const double skin = tolerances::list_skin * s.kernel.reach();
-    const bool lasts = !last && 2 * way_ < skin;
+    const bool lasts = !implicit && !last && 2 * way_ < skin;
     if (Status found = find_neighbours(s, particles_.x, lasts ? skin : 0); !found) return found;
     if (stop_requested()) return stopped_error();
     take();
     find_surroundings(s);
     if (stop_requested()) return stopped_error();
-    const bool implicit = s.common.solver == FluidSolverKind::dfsph;
-    if (implicit)
-      if (Status made = make_blocks(s); !made) return made;
     if (s.corrects()) find_corrections(s);
     if (s.trace) *s.trace = {s.report.sub_steps + 1, s.h, {}, {}};
     s.each([&](size_t p) { s.acceleration.set(p, particles_.acceleration[s.lists.order()[p]]); });

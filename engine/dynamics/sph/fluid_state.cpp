@@ -4,7 +4,6 @@
 #include "engine/dynamics/sph/wall_integrals.hpp"
 #include "engine/math/rotation.hpp"
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -102,66 +101,38 @@ double body_diagonal(const FluidState& s, size_t p, Vec3 WallTouch::*gradient) {
 }  // namespace
 
 Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin) {
-  const auto made = s.lists.update(x, {.reach = s.kernel.reach(), .skin = skin, .box = {}}, s.crew);
+  const auto made = s.lists.update(
+      x, {.reach = s.kernel.reach(), .skin = skin, .box = {}, .by_group = true}, s.crew);
   if (!made) return made.error();
   return {};
 }
 
 namespace {
 
-/// Sum of V f^2 d d^T over the density of the other [1/(kg m2)], where fluids differ in it.
-Mat3 squares_by_density(const FluidState& s, size_t p) {
-  const FluidList list = s.list(p);
-  Mat3 sum = Mat3::Zero();
-  for (size_t k = 0; k < list.padded; ++k) {
-    const size_t other = list.others[k];
-    const double f = s.stores[s.store_of[p]].slope_unit() * double(list.slopes[k]);
-    const Vec3 d = s.x(p) - s.x(other);
-    sum += s.volume[other] * f * f / s.density[other] * d * d.transpose();
-  }
-  return sum;
-}
-
-/// What a particle's own pressure does to its share by what it does to others: of plain sums, and
-/// of corrected ones before they are that.
-void find_squares(FluidState& s, size_t p, const FluidPairSums& sum) {
-  const bool corrects = s.corrects();
-  if (s.defs.size() > 1) {
-    const Mat3 squares = squares_by_density(s, p);
-    s.diagonal[p] = s.volume[p] * squares.trace();
-    if (corrects) s.square_matrix[p] = squares;
-  } else {
-    s.diagonal[p] = s.volume[p] * sum.squares / s.density[p];
-    if (corrects) s.square_matrix[p] = (1 / s.density[p]) * sum.square_matrix;
-  }
-  if (corrects) s.moment[p] = sum.moment;
-}
-
 /// Pairs of all particles, and what their sums say of shares.
 void find_fluid_pairs(FluidState& s) {
-  const std::span<const FluidVector> points(s.at.data(), s.lists.places());
-  const double self = s.kernel.value(0);
-  const FluidMoments moments = s.corrects() ? FluidMoments::found : FluidMoments::left_out;
-  s.stores.resize(chunk_count);
-  s.ranges.resize(s.size());
-  s.store_of.resize(s.size());
-  std::array<size_t, chunk_count> pairs{};
-  for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
-    size_t most = 0;
-    for (size_t p = first; p < last; ++p) most += s.lists.of(p).size();
-    s.stores[chunk].clear(s.kernel, most);
-    for (size_t p = first; p < last; ++p) {
-      const FluidPairSums sum =
-          find_pairs(s.kernel, moments, points, p, s.lists.of(p), s.stores[chunk]);
-      s.ranges[p] = sum.range;
-      s.store_of[p] = uint32_t(chunk);
-      pairs[chunk] += sum.pairs;
-      s.share[p] = sum.share + s.volume[p] * self;
-      s.fluid_gradient[p] = s.gradient[p] = {sum.gx, sum.gy, sum.gz};
-      s.slopes[p] = sum.slopes;
-      find_squares(s, p, sum);
-    }
+  const bool corrects = s.corrects();
+  const FluidMoments moments = corrects ? FluidMoments::found : FluidMoments::left_out;
+  s.pairs.make_room(s.lists, s.kernel, s.any(&FluidDef::xsph));
+  s.single_volumes.resize(s.lists.places());
+  s.single_volumes.back() = {};
+  s.each([&](size_t p) {
+    s.single_volumes[p] = {float(s.volume[p]), float(s.volume[p] / s.density[p]), 0, 0};
   });
+  const FluidPoints points{s.at.data(), s.single_volumes.data()};
+  std::array<size_t, chunk_count> pairs{};
+  s.each_batch<FluidPairSums>(
+      [&](size_t first, size_t end, FluidPairSums* sums) {
+        find_pairs(s.kernel, moments, points, s.pairs, first, end, sums);
+      },
+      [&](size_t chunk, size_t p, const FluidPairSums& sum) {
+        pairs[chunk] += sum.pairs;
+        s.share[p] = sum.share;
+        s.fluid_gradient[p] = s.gradient[p] = {sum.gx, sum.gy, sum.gz};
+        s.slopes[p] = sum.slopes;
+        s.diagonal[p] = s.volume[p] * sum.squares;
+        if (corrects) s.moment[p] = sum.moment, s.square_matrix[p] = sum.square_matrix;
+      });
   s.report.pairs = 0;
   for (const size_t n : pairs) s.report.pairs += n;
 }
@@ -170,8 +141,8 @@ void find_fluid_pairs(FluidState& s) {
 
 void find_surroundings(FluidState& s) {
   const size_t n = s.size();
-  s.share.assign(s.lists.places(), 0);
-  s.fluid_gradient.resize(n), s.gradient.resize(n), s.slopes.resize(n), s.diagonal.resize(n);
+  s.share.resize(n), s.fluid_gradient.resize(n), s.gradient.resize(n), s.slopes.resize(n),
+      s.diagonal.resize(n);
   if (s.corrects()) s.moment.resize(n), s.square_matrix.resize(n);
   find_walls(s);
   find_fluid_pairs(s);
@@ -183,52 +154,6 @@ void find_surroundings(FluidState& s) {
     s.diagonal[p] +=
         s.gradient[p].squaredNorm() / s.density[p] + body_diagonal(s, p, &WallTouch::gradient);
   });
-}
-
-namespace {
-
-/// Finds the rows in which each particle is, in ascending order.
-void number_copies(FluidState& s) {
-  PressureOperands& to = s.pressure_operands;
-  to.first_row.clear();
-  size_t rows = 0;
-  for (const FluidBlocks& blocks : s.blocks) {
-    to.first_row.push_back(uint32_t(rows));
-    rows += blocks.rows();
-  }
-  to.rows.resize(rows), to.exact_rows.resize(rows), to.copies.resize(rows);
-  to.first_copy.assign(s.size() + 1, 0);
-  const auto each_row = [&](const auto& f) {
-    for (size_t chunk = 0; chunk < s.blocks.size(); ++chunk)
-      for (size_t k = 0; k < s.blocks[chunk].size(); ++k) {
-        const FluidBlock block = s.blocks[chunk][k];
-        uint32_t row = to.first_row[chunk] + uint32_t(block.first_row);
-        for (const uint32_t place : block.rows) f(place, row++);
-      }
-  };
-  each_row([&](uint32_t place, uint32_t) { ++to.first_copy[place + 1]; });
-  for (size_t p = 0; p < s.size(); ++p) to.first_copy[p + 1] += to.first_copy[p];
-  to.next_copy.assign(to.first_copy.begin(), to.first_copy.end());
-  each_row([&](uint32_t place, uint32_t row) { to.copies[to.next_copy[place]++] = row; });
-}
-
-}  // namespace
-
-Status make_blocks(FluidState& s) {
-  s.blocks.resize(chunk_count);
-  for (FluidBlocks& blocks : s.blocks) blocks.clear();
-  std::atomic<bool> fine = true;
-  for_chunks(s.crew, s.size(), [&](size_t chunk, size_t first, size_t last) {
-    if (!s.blocks[chunk].make(s.stores[chunk], first, {s.ranges.data() + first, last - first},
-                              s.lists.places()))
-      fine.store(false, std::memory_order_relaxed);
-  });
-  if (!fine)
-    return Error{ErrorCode::numeric,
-                 fmt::format("a particle has more than {} neighbours", FluidBlocks::most_rows),
-                 "fluid", "raise tick_hz, or look for what presses the fluid together"};
-  number_copies(s);
-  return {};
 }
 
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 #include "engine/core/chunks.hpp"
 #include "engine/dynamics/particles/neighbours/neighbour_lists.hpp"
-#include "engine/dynamics/sph/block_sums.hpp"
-#include "engine/dynamics/sph/fluid_blocks.hpp"
 #include "engine/dynamics/sph/fluid_solver.hpp"
 #include "engine/dynamics/sph/fluid_sums.hpp"
+#include "engine/dynamics/sph/pressure_sums.hpp"
+#include "engine/dynamics/sph/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,22 +49,21 @@ struct alignas(32) SoughtPressure {
   float volume;                  ///< [volume units]
 };
 
-/// What the pressure solve is made of: see block_sums. By place but for what is said.
+/// What the pressure solve is made of: see pressure_sums. By place.
 struct PressureOperands {
-  std::vector<std::vector<BlockPairs>> pairs;  ///< by chunk
-  std::vector<BlockRow> rows;                  ///< of all blocks
-  std::vector<FluidVector> exact_rows;         ///< likewise
-  std::vector<uint32_t> first_row;             ///< by chunk
-  std::vector<uint32_t> first_copy, copies;    ///< see BlockCopies
-  std::vector<uint32_t> next_copy;             ///< scratch memory
-  std::vector<SingleVector> flows, gradients;  ///< see flow_by_pushes
-  std::vector<float> volumes;                  ///< [volume units]
-  std::vector<float> units;                    ///< of the particle's pairs: see make_pairs
+  std::vector<FlowRow> rows;
+  std::vector<PushRow> pushes;                   ///< of plain slopes
+  std::vector<StressRow> stresses;               ///< of corrected ones
+  std::vector<SymmetricRow<float>> corrections;  ///< [-]
+  std::vector<SingleVector> plain_gradients;     ///< sum of volumes times f d
+  /// The sums of a particle's own gradients and those of walls, over its volume, and as w its
+  /// volume over density and length unit [m2/kg].
+  std::vector<SingleVector> gradients;
+  std::vector<float> volumes;  ///< [volume units]
   std::vector<SoughtPressure> sought;
-  std::vector<float> weights;         ///< pressures times volumes [Pa volume units]
-  std::vector<FluidVector> own;       ///< see press_exactly
-  std::vector<double> exact_weights;  ///< [Pa m3]
-  std::vector<double> source;         ///< [1/s2]
+  std::vector<float> weights;                        ///< pressures times volumes [Pa volume units]
+  std::vector<SymmetricRow<double>> exact_stresses;  ///< [Pa m3]
+  std::vector<double> source;                        ///< [1/s2]
 };
 
 /// Memory of solve_viscosity and smooth_velocities, by place but for what is said.
@@ -109,7 +108,7 @@ struct FluidState {
   /// Of `dfsph`: what makes sums of slopes exact for velocities that are linear in places, and the
   /// diagonal with it: see find_corrections.
   std::vector<Mat3> moment;                ///< of FluidPairSums [-]
-  std::vector<Mat3> square_matrix;         ///< of the same, over densities [1/(kg m2)]
+  std::vector<Mat3> square_matrix;         ///< of the same [1/(kg m2)]
   std::vector<Mat3> correction;            ///< [-]
   std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
   std::vector<double> slopes;              ///< sum of V f: see FluidList [1/m2]
@@ -119,10 +118,8 @@ struct FluidState {
   std::vector<std::vector<WallTouch>> found_touches;  ///< by chunk, before they are `touches`
   std::vector<uint32_t> touch_counts;                 ///< likewise, by place
 
-  std::vector<FluidPairStore> stores;         ///< by chunk
-  std::vector<FluidPairStore::Range> ranges;  ///< by place
-  std::vector<uint32_t> store_of;             ///< likewise
-  std::vector<FluidBlocks> blocks;            ///< by chunk; of `dfsph`
+  FluidPairs pairs;
+  std::vector<SingleVector> single_volumes;  ///< see FluidPoints
   PressureOperands pressure_operands;
   ViscousOperands viscous_operands;
 
@@ -138,7 +135,6 @@ struct FluidState {
   }
   Vec3 x(size_t p) const { return at[p]; }
   Vec3 local(size_t p) const { return at[p] - origin; }
-  FluidList list(size_t p) const { return stores[store_of[p]].list(ranges[p]); }
   std::span<const WallTouch> touches_of(size_t p) const {
     return {touches.data() + first_touch[p], first_touch[p + 1] - first_touch[p]};
   }
@@ -164,23 +160,26 @@ struct FluidState {
   template <class F>
   void each_with_pairs(FluidFactor factor, const FluidVectors& y, const double* q,
                        const F& f) const {
-    for_chunks(crew, size(), [&](size_t, size_t first, size_t last) {
-      constexpr size_t together = 64;
-      std::array<FluidVector, together> found;
-      for (size_t p = first; p < last;) {
-        size_t end = p + 1;
-        while (end < std::min(last, p + together) && store_of[end] == store_of[p]) ++end;
-        sum_pairs(stores[store_of[p]], factor, p, {ranges.data() + p, end - p}, y.data(), q,
-                  found.data());
-        for (size_t k = 0; p < end; ++k, ++p) f(p, found[k]);
-      }
-    });
+    each_batch<FluidVector>(
+        [&](size_t first, size_t end, FluidVector* sums) {
+          sum_pairs(pairs, factor, first, end, y.data(), q, sums);
+        },
+        [&](size_t, size_t p, const FluidVector& sum) { f(p, sum); });
   }
-  /// f(block, chunk) for all blocks.
-  template <class F>
-  void each_block(const F& f) const {
-    for_chunks(crew, size(), [&](size_t chunk, size_t, size_t) {
-      for (size_t k = 0; k < blocks[chunk].size(); ++k) f(blocks[chunk][k], chunk);
+  /// For a few groups at a time find(first, end, sums of their particles), and for each of these
+  /// f(chunk, place, sum).
+  template <class Sum, class Find, class F>
+  void each_batch(const Find& find, const F& f) const {
+    for_chunks(crew, pairs.groups(), [&](size_t chunk, size_t first, size_t last) {
+      constexpr size_t together = tolerances::batch_groups;
+      std::array<Sum, FluidGroup::size * together> sums;
+      for (size_t g = first; g < last; g += together) {
+        const size_t end = std::min(last, g + together);
+        find(g, end, sums.data());
+        const size_t begin = lists.groups()[g].first;
+        const NeighbourLists::Group& to = lists.groups()[end - 1];
+        for (size_t p = begin; p < to.first + to.count; ++p) f(chunk, p, sums[p - begin]);
+      }
     });
   }
   /// Sum over all places of what f(p, by body) adds to bodies, likewise.
@@ -262,8 +261,6 @@ inline Vec3 difference(const Vec3& u, const FluidVector& sum) {
 Status find_neighbours(FluidState& s, std::span<const Vec3> x, double skin);
 /// Walls, shares, gradients and diagonals, from places and volumes.
 void find_surroundings(FluidState& s);
-/// Blocks of the pairs that find_surroundings found.
-Status make_blocks(FluidState& s);
 /// From these the corrections, and with them gradients and diagonals.
 void find_corrections(FluidState& s);
 /// Fills FluidState::touches.

@@ -1,5 +1,5 @@
-// Sums over the neighbours of one particle: pairs are found eight at a time, and then summed one
-// after the other, the four numbers of a neighbour side by side. Gathering numbers one by one from
+// Pairs are found sixteen at a time, four particles with four neighbours, and summed in double four
+// at a time. What is read of a neighbour serves four particles; gathering numbers one by one from
 // all over memory would take several times as long.
 #include "engine/dynamics/sph/fluid_sums.hpp"
 
@@ -10,284 +10,298 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "engine/math/compress-inl.hpp"
+#include "engine/dynamics/sph/group_lanes-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace tumble::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FluidTag = hn::CappedTag<double, 4>;
-using FluidHalf = hn::Rebind<float, FluidTag>;  ///< as many numbers in single precision
-using FluidLanes = hn::Vec<FluidTag>;
-constexpr size_t fluid_parts = 4 / hn::MaxLanes(FluidTag());
+// -- finding pairs
 
-/// Four numbers in double.
-struct FluidFour {
-  FluidLanes parts[fluid_parts];
-  static HWY_INLINE FluidFour zero() {
-    FluidFour f;
-    for (FluidLanes& p : f.parts) p = hn::Zero(FluidTag());
-    return f;
-  }
-  static HWY_INLINE FluidFour load(const double* from) {
-    FluidFour f;
-    for (size_t k = 0; k < fluid_parts; ++k)
-      f.parts[k] = hn::LoadU(FluidTag(), from + k * hn::MaxLanes(FluidTag()));
-    return f;
-  }
-  static HWY_INLINE FluidFour load(const float* from) {
-    FluidFour f;
-    for (size_t k = 0; k < fluid_parts; ++k)
-      f.parts[k] =
-          hn::PromoteTo(FluidTag(), hn::LoadU(FluidHalf(), from + k * hn::MaxLanes(FluidTag())));
-    return f;
-  }
-  HWY_INLINE void store(double* to) const {
-    for (size_t k = 0; k < fluid_parts; ++k)
-      hn::StoreU(parts[k], FluidTag(), to + k * hn::MaxLanes(FluidTag()));
-  }
-  HWY_INLINE void store_single(float* to) const {
-    for (size_t k = 0; k < fluid_parts; ++k)
-      hn::StoreU(hn::DemoteTo(FluidHalf(), parts[k]), FluidHalf(),
-                 to + k * hn::MaxLanes(FluidTag()));
-  }
-};
-HWY_INLINE FluidFour operator+(const FluidFour& a, const FluidFour& b) {
-  FluidFour f;
-  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Add(a.parts[k], b.parts[k]);
-  return f;
+HWY_INLINE SixteenSingle every(float v) {
+  return SixteenSingle::of(v);
 }
-HWY_INLINE FluidFour operator-(const FluidFour& a, const FluidFour& b) {
-  FluidFour f;
-  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Sub(a.parts[k], b.parts[k]);
-  return f;
+HWY_INLINE SixteenSingle not_below_zero(const SixteenSingle& a) {
+  SixteenSingle s;
+  for (size_t k = 0; k < s.count; ++k)
+    s.parts[k] = hn::Max(hn::Zero(SixteenSingle::Tag()), a.parts[k]);
+  return s;
 }
-HWY_INLINE FluidFour operator*(double a, const FluidFour& b) {
-  FluidFour f;
-  const FluidLanes every = hn::Set(FluidTag(), a);
-  for (size_t k = 0; k < fluid_parts; ++k) f.parts[k] = hn::Mul(every, b.parts[k]);
-  return f;
+HWY_INLINE SixteenSingle root(const SixteenSingle& a) {
+  SixteenSingle s;
+  for (size_t k = 0; k < s.count; ++k) s.parts[k] = hn::Sqrt(a.parts[k]);
+  return s;
 }
-
-// -- finding pairs, in single precision
-
-using SingleTag = hn::CappedTag<float, 8>;
-using SingleLanes = hn::Vec<SingleTag>;
-using PlaceTag = hn::Rebind<uint32_t, SingleTag>;
-constexpr size_t single_lanes = hn::MaxLanes(SingleTag());
-
-HWY_INLINE SingleLanes every(float v) {
-  return hn::Set(SingleTag(), v);
+/// a / b; where b is zero, zero.
+HWY_INLINE SixteenSingle over(const SixteenSingle& a, const SixteenSingle& b) {
+  SixteenSingle s;
+  for (size_t k = 0; k < s.count; ++k)
+    s.parts[k] = hn::IfThenElseZero(hn::Gt(b.parts[k], hn::Zero(SixteenSingle::Tag())),
+                                    hn::Div(a.parts[k], b.parts[k]));
+  return s;
+}
+/// 1 where a is less than 1, else 0.
+HWY_INLINE SixteenSingle below_one(const SixteenSingle& a) {
+  SixteenSingle s;
+  const auto one = hn::Set(SixteenSingle::Tag(), 1.0f);
+  for (size_t k = 0; k < s.count; ++k)
+    s.parts[k] = hn::IfThenElseZero(hn::Lt(a.parts[k], one), one);
+  return s;
 }
 
 /// Parts of kernels, of u and w as in SmoothingKernel: W / scale, and dW/dr reach / scale.
 struct CubicLanes {
-  static HWY_INLINE SingleLanes value(SingleLanes u, SingleLanes w) {
-    return hn::Sub(hn::Mul(every(2), hn::Mul(hn::Mul(u, u), u)),
-                   hn::Mul(every(8), hn::Mul(hn::Mul(w, w), w)));
+  static HWY_INLINE SixteenSingle value(const SixteenSingle& u, const SixteenSingle& w) {
+    return every(2) * (u * u * u) - every(8) * (w * w * w);
   }
-  static HWY_INLINE SingleLanes slope(SingleLanes u, SingleLanes w) {
-    return hn::Sub(hn::Mul(every(24), hn::Mul(w, w)), hn::Mul(every(6), hn::Mul(u, u)));
+  static HWY_INLINE SixteenSingle slope(const SixteenSingle& u, const SixteenSingle& w) {
+    return every(24) * (w * w) - every(6) * (u * u);
   }
 };
 struct WendlandLanes {
-  static HWY_INLINE SingleLanes value(SingleLanes u, SingleLanes) {
-    const SingleLanes u2 = hn::Mul(u, u);
-    return hn::Mul(hn::Mul(u2, u2), hn::Sub(every(5), hn::Mul(every(4), u)));
+  static HWY_INLINE SixteenSingle value(const SixteenSingle& u, const SixteenSingle&) {
+    const SixteenSingle u2 = u * u;
+    return (u2 * u2) * (every(5) - every(4) * u);
   }
-  static HWY_INLINE SingleLanes slope(SingleLanes u, SingleLanes) {
-    return hn::Mul(hn::Mul(every(-20), hn::Sub(every(1), u)), hn::Mul(u, hn::Mul(u, u)));
+  static HWY_INLINE SixteenSingle slope(const SixteenSingle& u, const SixteenSingle&) {
+    return (every(-20) * (every(1) - u)) * (u * (u * u));
   }
 };
 
-/// The particle whose list is made, and its sums.
+/// The particles of a group, and their sums.
 template <class Kernel, bool moments>
 class PairFinder {
  public:
-  HWY_INLINE PairFinder(const SmoothingKernel& kernel, const FluidVector* points, size_t place)
-      : points_(points),
-        own_(FluidFour::load(&points[place].x)),
-        per_reach_(float(1 / kernel.reach())) {
-    for (size_t k = 0; k < single_parts; ++k) {
-      share_[k] = squares_[k] = every(0);
-      for (size_t n = 0; n < symmetric; ++n) moment_[n][k] = square_matrix_[n][k] = every(0);
+  HWY_INLINE PairFinder(const SmoothingKernel& kernel, const FluidPoints& points,
+                        const FluidGroup& group, float per_rounded)
+      : points_(points), per_reach_(float(1 / kernel.reach())), per_rounded_(per_rounded) {
+    HWY_ALIGN double own[3][FluidGroup::size];
+    for (size_t n = 0; n < FluidGroup::size; ++n) {
+      const FluidVector& at = points.at[group.place(n)];
+      own[0][n] = at.x, own[1][n] = at.y, own[2][n] = at.z;
     }
-    for (FluidFour& g : gradient_) g = FluidFour::zero();
+    for (size_t c = 0; c < 3; ++c) own_[c] = GroupFour::load(own[c]), gradient_[c] = {};
+    for (size_t c = 0; c < 3; ++c) gradient_[c] = GroupFour::of(0);
+    slopes_ = GroupFour::of(0);
+    share_ = squares_ = pairs_ = every(0);
+    for (size_t n = 0; n < symmetric; ++n) moment_[n] = square_matrix_[n] = every(0);
   }
 
-  HWY_INLINE void eight(const uint32_t* others, FluidPairStore& store) {
-    HWY_ALIGN double ways[4 * at_once];
-    HWY_ALIGN float rows[4 * at_once];
-    HWY_ALIGN float slopes[at_once];
-    for (size_t k = 0; k < at_once; ++k) {
-      const FluidFour way = own_ - FluidFour::load(&points_[others[k]].x);
-      way.store(ways + 4 * k);
-      way.store_single(rows + 4 * k);
-      rows[4 * k + 3] = float(points_[others[k]].w);
-    }
-    for (size_t part = 0; part < single_parts; ++part) {
-      const size_t at = part * single_lanes;
-      SingleLanes x, y, z, v;
-      hn::LoadInterleaved4(SingleTag(), rows + 4 * at, x, y, z, v);
-      const SingleLanes r = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
-      const SingleLanes q = hn::Mul(r, every(per_reach_));
-      const SingleLanes u = hn::Max(every(0), hn::Sub(every(1), q)),
-                        w = hn::Max(every(0), hn::Sub(every(0.5f), q));
-      const SingleLanes slope = Kernel::slope(u, w), value = Kernel::value(u, w);
-      // Two at one place push each other nowhere.
-      const SingleLanes f = hn::IfThenElseZero(hn::Gt(q, every(0)), hn::Div(slope, q));
-      share_[part] = hn::Add(share_[part], hn::Mul(v, value));
-      squares_[part] = hn::Add(squares_[part], hn::Mul(v, hn::Mul(slope, slope)));
-      if constexpr (moments) {
-        const SingleLanes push = hn::Mul(v, f);
-        add_products(moment_, part, push, x, y, z);
-        add_products(square_matrix_, part, hn::Mul(push, f), x, y, z);
+  /// With four neighbours.
+  HWY_INLINE void four(const uint32_t* others, float* slopes, float* weights, int16_t* rounded) {
+    HWY_ALIGN double ways[3][16];
+    HWY_ALIGN float singles[3][16];
+    for (size_t k = 0; k < 4; ++k) {
+      FluidGroup::fetch(points_.at, others + k);
+      const FluidVector& at = points_.at[others[k]];
+      const GroupFour way[3] = {own_[0] - GroupFour::of(at.x), own_[1] - GroupFour::of(at.y),
+                                own_[2] - GroupFour::of(at.z)};
+      for (size_t c = 0; c < 3; ++c) {
+        way[c].store(ways[c] + 4 * k);
+        way[c].store_single(singles[c] + 4 * k);
       }
-      hn::Store(f, SingleTag(), slopes + at);
-      // Written as many as there are lanes, of which those in reach are kept.
-      const Compressor<SingleTag> compress(hn::Lt(q, every(1)));
-      const FluidPairStore::End end = store.end();
-      hn::StoreU(compress(hn::LoadU(PlaceTag(), others + at)), PlaceTag(), end.others);
-      hn::StoreU(compress(f), SingleTag(), end.slopes);
-      hn::StoreU(compress(value), SingleTag(), end.weights);
-      store.keep(compress.count());
     }
-    for (size_t k = 0; k < at_once; ++k) {
-      // Beyond the reach it is zero.
-      const double f = double(slopes[k]) * points_[others[k]].w;
-      gradient_[k % 4] = gradient_[k % 4] + f * FluidFour::load(ways + 4 * k);
-      slopes_[k % 4] += f;
-    }
-  }
-  HWY_INLINE void finish(const SmoothingKernel& kernel, FluidPairSums& out) const {
-    const double per_reach = kernel.scale() / kernel.reach(), unit = per_reach / kernel.reach();
-    double g[4];
-    ((gradient_[0] + gradient_[2]) + (gradient_[1] + gradient_[3])).store(g);
-    out.gx = unit * g[0], out.gy = unit * g[1], out.gz = unit * g[2];
-    out.slopes = unit * ((slopes_[0] + slopes_[2]) + (slopes_[1] + slopes_[3]));
-    out.share = kernel.scale() * total(share_);
-    out.squares = per_reach * per_reach * total(squares_);
+    const SixteenSingle x = SixteenSingle::load(singles[0]), y = SixteenSingle::load(singles[1]),
+                        z = SixteenSingle::load(singles[2]);
+    const SixteenSingle q = root((x * x + y * y) + z * z) * every(per_reach_);
+    const SixteenSingle u = not_below_zero(every(1) - q), w = not_below_zero(every(0.5f) - q);
+    const SixteenSingle slope = Kernel::slope(u, w), value = Kernel::value(u, w);
+    // Two at one place push each other nowhere.
+    const SixteenSingle f = over(slope, q);
+    f.store(slopes);
+    if (weights) value.store(weights);
+    store_rounded(f * every(per_rounded_), rounded);
+    const SixteenSingle volumes = SixteenSingle::rows(&points_.volumes->x, 4, others);
+    const SixteenSingle v = volumes.each<0>(), per_density = volumes.each<1>();
+    pairs_ = pairs_ + below_one(q);
+    share_ = share_ + v * value;
+    squares_ = squares_ + per_density * (slope * slope);
     if constexpr (moments) {
-      out.moment = -unit * matrix(moment_);
-      out.square_matrix = unit * unit * matrix(square_matrix_);
+      add_products(moment_, v * f, x, y, z);
+      add_products(square_matrix_, per_density * (f * f), x, y, z);
+    }
+    for (size_t k = 0; k < 4; ++k) {
+      const GroupFour each =
+          GroupFour::load(slopes + 4 * k) * GroupFour::of(points_.at[others[k]].w);
+      for (size_t c = 0; c < 3; ++c)
+        gradient_[c] = gradient_[c] + each * GroupFour::load(ways[c] + 4 * k);
+      slopes_ = slopes_ + each;
     }
   }
-
-  static constexpr size_t at_once = 8;
+  HWY_INLINE void finish(const SmoothingKernel& kernel, size_t count, FluidPairSums* out) const {
+    const double per_reach = kernel.scale() / kernel.reach(), unit = per_reach / kernel.reach();
+    double gradients[3][4], slopes[4];
+    for (size_t c = 0; c < 3; ++c) gradient_[c].store(gradients[c]);
+    slopes_.store(slopes);
+    float pairs[4], share[4], squares[4];
+    pairs_.total(pairs), share_.total(share), squares_.total(squares);
+    for (size_t n = 0; n < count; ++n) {
+      FluidPairSums& to = out[n];
+      to.pairs = size_t(pairs[n]) - 1;
+      to.gx = unit * gradients[0][n];
+      to.gy = unit * gradients[1][n];
+      to.gz = unit * gradients[2][n];
+      to.slopes = unit * slopes[n];
+      to.share = kernel.scale() * double(share[n]);
+      to.squares = per_reach * per_reach * double(squares[n]);
+    }
+    if constexpr (moments) {
+      float moment[symmetric][4], square[symmetric][4];
+      for (size_t k = 0; k < symmetric; ++k)
+        moment_[k].total(moment[k]), square_matrix_[k].total(square[k]);
+      for (size_t n = 0; n < count; ++n) {
+        out[n].moment = matrix(-unit, moment, n);
+        out[n].square_matrix = matrix(unit * unit, square, n);
+      }
+    }
+  }
 
  private:
-  static constexpr size_t single_parts = at_once / single_lanes;
   static constexpr size_t symmetric = 6;  ///< numbers of a symmetric matrix
-  using Products = SingleLanes[symmetric][single_parts];
+  using Products = SixteenSingle[symmetric];
 
-  static HWY_INLINE void add_products(Products& to, size_t part, SingleLanes factor, SingleLanes x,
-                                      SingleLanes y, SingleLanes z) {
-    const SingleLanes fx = hn::Mul(factor, x), fy = hn::Mul(factor, y), fz = hn::Mul(factor, z);
-    to[0][part] = hn::Add(to[0][part], hn::Mul(fx, x));
-    to[1][part] = hn::Add(to[1][part], hn::Mul(fx, y));
-    to[2][part] = hn::Add(to[2][part], hn::Mul(fx, z));
-    to[3][part] = hn::Add(to[3][part], hn::Mul(fy, y));
-    to[4][part] = hn::Add(to[4][part], hn::Mul(fy, z));
-    to[5][part] = hn::Add(to[5][part], hn::Mul(fz, z));
+  static HWY_INLINE void add_products(Products& to, const SixteenSingle& factor,
+                                      const SixteenSingle& x, const SixteenSingle& y,
+                                      const SixteenSingle& z) {
+    const SixteenSingle fx = factor * x, fy = factor * y, fz = factor * z;
+    to[0] = to[0] + fx * x;
+    to[1] = to[1] + fx * y;
+    to[2] = to[2] + fx * z;
+    to[3] = to[3] + fy * y;
+    to[4] = to[4] + fy * z;
+    to[5] = to[5] + fz * z;
   }
-  static HWY_INLINE Mat3 matrix(const Products& from) {
-    const double xx = total(from[0]), xy = total(from[1]), xz = total(from[2]), yy = total(from[3]),
-                 yz = total(from[4]), zz = total(from[5]);
-    return {xx, xy, xz, xy, yy, yz, xz, yz, zz};
-  }
-  static HWY_INLINE double total(const SingleLanes* parts) {
-    HWY_ALIGN float v[at_once];
-    for (size_t k = 0; k < single_parts; ++k)
-      hn::Store(parts[k], SingleTag(), v + k * single_lanes);
-    double t[4];
-    for (size_t k = 0; k < 4; ++k) t[k] = double(v[k]) + double(v[k + 4]);
-    return (t[0] + t[2]) + (t[1] + t[3]);
+  static Mat3 matrix(double unit, const float (&from)[symmetric][4], size_t n) {
+    double v[symmetric];
+    for (size_t k = 0; k < symmetric; ++k) v[k] = unit * double(from[k][n]);
+    return {v[0], v[1], v[2], v[1], v[3], v[4], v[2], v[4], v[5]};
   }
 
-  const FluidVector* points_;
-  FluidFour own_;
-  float per_reach_;
-  SingleLanes share_[single_parts], squares_[single_parts];
+  const FluidPoints& points_;
+  float per_reach_, per_rounded_;
+  GroupFour own_[3], gradient_[3], slopes_;
+  SixteenSingle share_, squares_, pairs_;
   Products moment_, square_matrix_;
-  FluidFour gradient_[4];
-  double slopes_[4] = {};
 };
 
 template <class Kernel, bool moments>
-FluidPairSums pairs_of(const SmoothingKernel& kernel, std::span<const FluidVector> points,
-                       size_t place, std::span<const uint32_t> candidates, FluidPairStore& store) {
-  using Finder = PairFinder<Kernel, moments>;
-  Finder finder(kernel, points.data(), place);
-  FluidPairSums out{};
-  out.range.first = store.used();
-  for (size_t k = 0; k < candidates.size(); k += Finder::at_once)
-    finder.eight(candidates.data() + k, store);
-  out.pairs = store.used() - out.range.first;
-  while ((store.used() - out.range.first) % FluidPairStore::batch != 0) {
-    const FluidPairStore::End end = store.end();
-    *end.others = uint32_t(points.size() - 1);
-    *end.slopes = *end.weights = 0;
-    store.keep(1);
+void pairs_of(const SmoothingKernel& kernel, const FluidPoints& points, FluidPairs& pairs,
+              size_t first, size_t end, FluidPairSums* sums) {
+  const auto per_rounded = float(1 / pairs.rounded_unit());
+  for (size_t g = first; g < end; ++g) {
+    const FluidGroup group = pairs.group(g);
+    const FluidPairs::Room room = pairs.room(g);
+    PairFinder<Kernel, moments> finder(kernel, points, group, per_rounded);
+    for (size_t k = 0; k < group.padded; k += 4)
+      finder.four(group.others + k, room.slopes + 4 * k,
+                  room.weights ? room.weights + 4 * k : nullptr, room.rounded + 4 * k);
+    finder.finish(kernel, group.count, sums);
+    sums += group.count;
   }
-  out.range.padded = store.used() - out.range.first;
-  finder.finish(kernel, out);
-  return out;
 }
 
-template <class Kernel>
-FluidPairSums pairs_by(FluidMoments moments, const SmoothingKernel& kernel,
-                       std::span<const FluidVector> points, size_t place,
-                       std::span<const uint32_t> candidates, FluidPairStore& store) {
-  return moments == FluidMoments::found
-             ? pairs_of<Kernel, true>(kernel, points, place, candidates, store)
-             : pairs_of<Kernel, false>(kernel, points, place, candidates, store);
-}
-
-FluidPairSums pairs_here(const SmoothingKernel& kernel, FluidMoments moments,
-                         std::span<const FluidVector> points, size_t place,
-                         std::span<const uint32_t> candidates, FluidPairStore& store) {
-  return kernel.kind() == FluidKernelKind::wendland
-             ? pairs_by<WendlandLanes>(moments, kernel, points, place, candidates, store)
-             : pairs_by<CubicLanes>(moments, kernel, points, place, candidates, store);
+void pairs_here(const SmoothingKernel& kernel, FluidMoments moments, const FluidPoints& points,
+                FluidPairs& pairs, size_t first, size_t end, FluidPairSums* sums) {
+  const bool wendland = kernel.kind() == FluidKernelKind::wendland;
+  if (moments == FluidMoments::found)
+    (wendland ? pairs_of<WendlandLanes, true> : pairs_of<CubicLanes, true>)(kernel, points, pairs,
+                                                                            first, end, sums);
+  else
+    (wendland ? pairs_of<WendlandLanes, false> : pairs_of<CubicLanes, false>)(kernel, points, pairs,
+                                                                              first, end, sums);
 }
 
 // -- sums over them
 
-/// Of one particle: factors times means times y, of every fourth pair in a sum of its own.
-template <class Mean>
-HWY_INLINE FluidFour sum_of(const FluidList& list, const float* factors, const FluidVector* y,
-                            const Mean& mean) {
-  FluidFour sums[4] = {FluidFour::zero(), FluidFour::zero(), FluidFour::zero(), FluidFour::zero()};
-  for (size_t k = 0; k < list.padded; k += 4) {
-    HWY_ALIGN double f[4];
-    FluidFour::load(factors + k).store(f);
-    for (size_t n = 0; n < 4; ++n) {
-      const size_t other = list.others[k + n];
-      sums[n] = sums[n] + mean(f[n], other) * FluidFour::load(&y[other].x);
-    }
-  }
-  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+/// Four vectors, of four particles each a number, to those of particles.
+HWY_INLINE void write_vectors(const GroupFour (&from)[4], double unit, size_t count,
+                              FluidVector* to) {
+  double v[4][4];
+  for (size_t c = 0; c < 4; ++c) from[c].store(v[c]);
+  for (size_t n = 0; n < count; ++n)
+    to[n] = {unit * v[0][n], unit * v[1][n], unit * v[2][n], unit * v[3][n]};
 }
 
-void sums_here(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
-               FluidVector* sums) {
+/// Of four particles: factors times means times y.
+template <class Mean>
+HWY_INLINE void sum_group(const FluidGroup& group, const float* factors, const FluidVector* y,
+                          double unit, const Mean& mean, FluidVector* sums) {
+  GroupFour all[4] = {GroupFour::of(0), GroupFour::of(0), GroupFour::of(0), GroupFour::of(0)};
+  for (size_t k = 0; k < group.padded; ++k) {
+    const size_t other = group.others[k];
+    FluidGroup::fetch(y, group.others + k);
+    const GroupFour f = mean(GroupFour::load(factors + 4 * k), other);
+    const FluidVector& of = y[other];
+    all[0] = all[0] + f * GroupFour::of(of.x);
+    all[1] = all[1] + f * GroupFour::of(of.y);
+    all[2] = all[2] + f * GroupFour::of(of.z);
+    all[3] = all[3] + f * GroupFour::of(of.w);
+  }
+  write_vectors(all, unit, group.count, sums);
+}
+
+/// of_mean() of four particles.
+HWY_INLINE GroupFour of_means(const GroupFour& own, double other) {
+  GroupFour f;
+  const auto two = hn::Set(GroupFour::Tag(), 2 * other);
+  const GroupFour both = own + GroupFour::of(other);
+  for (size_t k = 0; k < f.count; ++k)
+    f.parts[k] = hn::IfThenElseZero(hn::Gt(both.parts[k], hn::Zero(GroupFour::Tag())),
+                                    hn::Div(two, both.parts[k]));
+  return f;
+}
+
+void sums_here(const FluidPairs& pairs, FluidFactor factor, size_t first, size_t end,
+               const FluidVector* y, const double* q, FluidVector* sums) {
   const bool slopes = factor == FluidFactor::slope;
-  const double unit = slopes ? store.slope_unit() : store.weight_unit();
-  for (size_t p = 0; p < ranges.size(); ++p) {
-    const FluidList list = store.list(ranges[p]);
-    const float* factors = slopes ? list.slopes : list.weights;
-    FluidFour sum;
+  const double unit = slopes ? pairs.slope_unit() : pairs.weight_unit();
+  for (size_t g = first; g < end; ++g) {
+    const FluidGroup group = pairs.group(g);
+    const float* factors = slopes ? group.slopes : group.weights;
     if (q) {
-      const double own = q[first_place + p];
-      sum = sum_of(list, factors, y, [own, q](double f, size_t other) HWY_ATTR {
-        return f * of_mean(own, q[other]);
-      });
+      double own[FluidGroup::size];
+      for (size_t n = 0; n < FluidGroup::size; ++n) own[n] = q[group.place(n)];
+      const GroupFour owns = GroupFour::load(own);
+      sum_group(
+          group, factors, y, unit,
+          [&](const GroupFour& f, size_t other) HWY_ATTR { return f * of_means(owns, q[other]); },
+          sums);
     } else {
-      sum = sum_of(list, factors, y, [](double f, size_t) HWY_ATTR { return f; });
+      sum_group(
+          group, factors, y, unit, [](const GroupFour& f, size_t) HWY_ATTR { return f; }, sums);
     }
-    (unit * sum).store(&sums[p].x);
+    sums += group.count;
+  }
+}
+
+void exactly_here(const FluidPairs& pairs, size_t first, size_t end, const FluidVector* at,
+                  const SymmetricRow<double>* stresses, FluidVector* sums) {
+  for (size_t g = first; g < end; ++g) {
+    const FluidGroup group = pairs.group(g);
+    double own[3][FluidGroup::size];
+    for (size_t n = 0; n < FluidGroup::size; ++n) {
+      const FluidVector& from = at[group.place(n)];
+      own[0][n] = from.x, own[1][n] = from.y, own[2][n] = from.z;
+    }
+    const GroupFour x = GroupFour::load(own[0]), y = GroupFour::load(own[1]),
+                    z = GroupFour::load(own[2]);
+    GroupFour all[4] = {GroupFour::of(0), GroupFour::of(0), GroupFour::of(0), GroupFour::of(0)};
+    for (size_t k = 0; k < group.padded; ++k) {
+      FluidGroup::fetch(at, group.others + k);
+      FluidGroup::fetch(stresses, group.others + k);
+      const FluidVector& other = at[group.others[k]];
+      const SymmetricRow<double>& t = stresses[group.others[k]];
+      const GroupFour f = GroupFour::load(group.slopes + 4 * k);
+      const GroupFour gx = f * (x - GroupFour::of(other.x)), gy = f * (y - GroupFour::of(other.y)),
+                      gz = f * (z - GroupFour::of(other.z));
+      const GroupFour xy = GroupFour::of(t.xy), yz = GroupFour::of(t.yz), zx = GroupFour::of(t.zx);
+      all[0] = all[0] + ((GroupFour::of(t.xx) * gx + xy * gy) + zx * gz);
+      all[1] = all[1] + ((xy * gx + GroupFour::of(t.yy) * gy) + yz * gz);
+      all[2] = all[2] + ((zx * gx + yz * gy) + GroupFour::of(t.zz) * gz);
+    }
+    write_vectors(all, pairs.slope_unit(), group.count, sums);
+    sums += group.count;
   }
 }
 
@@ -298,16 +312,41 @@ HWY_AFTER_NAMESPACE();
 namespace tumble {
 HWY_EXPORT(pairs_here);
 HWY_EXPORT(sums_here);
+HWY_EXPORT(exactly_here);
 
-FluidPairSums find_pairs(const SmoothingKernel& kernel, FluidMoments moments,
-                         std::span<const FluidVector> points, size_t place,
-                         std::span<const uint32_t> candidates, FluidPairStore& store) {
-  return HWY_DYNAMIC_DISPATCH(pairs_here)(kernel, moments, points, place, candidates, store);
+void FluidPairs::make_room(const NeighbourLists& lists, const SmoothingKernel& kernel,
+                           bool weights) {
+  lists_ = &lists;
+  slope_unit_ = kernel.scale() / (kernel.reach() * kernel.reach());
+  weight_unit_ = kernel.scale();
+  rounded_unit_ = kernel.sharpest() / slope_unit_ / INT16_MAX;
+  size_t used = 0;
+  firsts_.resize(groups());
+  for (size_t g = 0; g < groups(); ++g) {
+    firsts_[g] = used;
+    used += FluidGroup::size * lists.groups()[g].padded;
+  }
+  const auto grow = [used](auto& all) {
+    if (all.size() < used) all.resize(used + used / 8);
+  };
+  grow(slopes_), grow(rounded_);
+  if (weights)
+    grow(weights_);
+  else
+    weights_.clear();
 }
-void sum_pairs(const FluidPairStore& store, FluidFactor factor, size_t first_place,
-               std::span<const FluidPairStore::Range> ranges, const FluidVector* y, const double* q,
-               FluidVector* sums) {
-  HWY_DYNAMIC_DISPATCH(sums_here)(store, factor, first_place, ranges, y, q, sums);
+
+void find_pairs(const SmoothingKernel& kernel, FluidMoments moments, const FluidPoints& points,
+                FluidPairs& pairs, size_t first, size_t end, FluidPairSums* sums) {
+  HWY_DYNAMIC_DISPATCH(pairs_here)(kernel, moments, points, pairs, first, end, sums);
+}
+void sum_pairs(const FluidPairs& pairs, FluidFactor factor, size_t first, size_t end,
+               const FluidVector* y, const double* q, FluidVector* sums) {
+  HWY_DYNAMIC_DISPATCH(sums_here)(pairs, factor, first, end, y, q, sums);
+}
+void push_exactly(const FluidPairs& pairs, size_t first, size_t end, const FluidVector* at,
+                  const SymmetricRow<double>* stresses, FluidVector* sums) {
+  HWY_DYNAMIC_DISPATCH(exactly_here)(pairs, first, end, at, stresses, sums);
 }
 }  // namespace tumble
 #endif

@@ -17,7 +17,6 @@
 // velocities (Cornelis et al., "An optimized source term formulation for incompressible SPH",
 // 2019): else it would stir the fluid for ever.
 #include "engine/core/stop.hpp"
-#include "engine/dynamics/sph/block_sums.hpp"
 #include "engine/dynamics/sph/fluid_state.hpp"
 
 #include <cmath>
@@ -29,8 +28,37 @@ namespace {
 /// find_corrections.
 enum class Sums : uint8_t { of_shares, corrected };
 
+SingleVector single(const Vec3& v, double w) {
+  return {float(v[0]), float(v[1]), float(v[2]), float(w)};
+}
+Vec3 vector(const SingleVector& v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
+
+/// Where particles are, and what of the iterations' gradients depends on that alone.
+void place_rows(FluidState& s) {
+  PressureOperands& to = s.pressure_operands;
+  const size_t n = s.size(), places = s.lists.places();
+  to.rows.resize(places), to.pushes.resize(places), to.volumes.resize(n);
+  to.plain_gradients.resize(n);
+  to.rows.back() = {}, to.pushes.back() = {};
+  const double per_reach = 1 / s.kernel.reach();
+  s.each([&](size_t p) {
+    const FluidPlace at = FluidPlace::of(per_reach * s.x(p));
+    to.volumes[p] = float(s.kernel.scale() * s.volume[p]);
+    to.rows[p].at = at;
+    to.pushes[p] = {at, to.volumes[p], 0};
+  });
+  s.each_batch<SingleVector>(
+      [&](size_t first, size_t end, SingleVector* sums) {
+        push_groups(s.pairs, first, end, to.pushes.data(), sums);
+      },
+      [&](size_t, size_t p, const SingleVector& sum) { to.plain_gradients[p] = sum; });
+}
+
 /// Forces of pressures, and what bodies make of them. While pressures are sought they are in single
-/// precision, by blocks; what acts in the end is in double, pair by pair equal and opposite.
+/// precision, of rounded slopes; what acts in the end is in double, pair by pair equal and
+/// opposite.
 class PressureForces {
  public:
   PressureForces(FluidState& s, Sums sums, bool bodies_yield)
@@ -45,27 +73,20 @@ class PressureForces {
   /// What all the others need, but press_by_state.
   void take_operands() {
     FluidState& s = s_;
-    to_.flows.resize(s.size()), to_.gradients.resize(s.size()), to_.units.resize(s.size());
-    to_.volumes.resize(s.lists.places());
-    to_.volumes.back() = 0;
-    s.each([&](size_t p) { to_.volumes[p] = float(s.kernel.scale() * s.volume[p]); });
-    to_.weights.resize(s.size()), to_.exact_weights.resize(s.size());
-    to_.pairs.resize(s.blocks.size());
+    to_.gradients.resize(s.size()), to_.weights.resize(s.size());
+    if (corrected_) to_.corrections.resize(s.size()), to_.stresses.resize(s.lists.places());
+    if (corrected_) to_.stresses.back() = {};
     const double length = s.kernel.reach();
-    s.each_block([&](const FluidBlock& block, size_t chunk) {
-      std::vector<BlockPairs>& all = to_.pairs[chunk];
-      const size_t room = s.stores[chunk].used() / FluidPairStore::batch + 1;
-      if (all.size() < room) all.resize(room);
-      make_pairs(points(), block, to_.volumes.data(), pairs(block, chunk),
-                 to_.units.data() + block.first, to_.gradients.data() + block.first);
-      for (size_t p = block.first; p < block.first + block.ends.size(); ++p) {
-        const double volume = s.kernel.scale() * s.volume[p];
-        Vec3 walls = Vec3::Zero();
-        for (const WallTouch& t : s.touches_of(p)) walls += gradient(t);
-        SingleVector& g = to_.gradients[p];
-        const Vec3 sum = Vec3(double(g.x), double(g.y), double(g.z)) + length * walls;
-        g = single(1 / volume * sum, volume / (length * s.density[p]));
+    s.each([&](size_t p) {
+      const double volume = double(to_.volumes[p]);
+      Vec3 sum = vector(to_.plain_gradients[p]);
+      if (corrected_) {
+        sum = s.correction[p] * sum;
+        to_.corrections[p] = SymmetricRow<float>::of(s.correction[p]);
+        to_.stresses[p].at = to_.rows[p].at;
       }
+      for (const WallTouch& t : s.touches_of(p)) sum += length * gradient(t);
+      to_.gradients[p] = single(1 / volume * sum, volume / (length * s.density[p]));
     });
   }
 
@@ -73,92 +94,63 @@ class PressureForces {
   /// fluid behind a wall moves as the mirror image.
   void find_rates(std::vector<double>& rates) {
     FluidState& s = s_;
-    s.each([&](size_t p) { to_.flows[p] = single(s.kernel.scale() * s.volume[p] * s.v[p], 0); });
-    each_of_copies([&](const BlockCopies& copies, size_t first, size_t last) {
-      spread_flows(copies, first, last, to_.flows.data(), to_.rows.data());
-    });
+    s.each([&](size_t p) { to_.rows[p].flow = single(double(to_.volumes[p]) * s.v[p], 0); });
     rates.resize(s.size());
-    s.each_block([&](const FluidBlock& block, size_t chunk) {
-      each_batch(block, chunk, [&](size_t first, std::span<const float> found) {
-        for (size_t k = 0; k < found.size(); ++k) {
-          const size_t p = first + k;
-          double rate = double(found[k]);
-          for (const WallTouch& t : s.touches_of(p))
-            rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t));
-          rates[p] = rate;
-        }
-      });
+    each_opened([&](size_t, size_t p, float found) {
+      double rate = double(found);
+      for (const WallTouch& t : s.touches_of(p))
+        rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t));
+      rates[p] = rate;
     });
   }
 
-  /// Particles push their neighbours by the weights that are, for the first time since find_rates.
-  void begin() {
-    FluidState& s = s_;
-    s.each_block([&](const FluidBlock& block, size_t chunk) {
-      for (size_t k = 0; k < block.ends.size(); k += tolerances::batch_particles)
-        press(block, chunk, k, std::min(block.ends.size(), k + tolerances::batch_particles));
-    });
+  /// The particle at place p is to push others by its weight.
+  void press(size_t p) {
+    if (corrected_)
+      to_.stresses[p].set(to_.corrections[p].times(to_.weights[p]));
+    else
+      to_.pushes[p].weight = to_.weights[p];
   }
-  /// Flows by what particles were pushed by, and of bodies by pressures pressure(p).
+  /// Flows by what particles are pushed by, and of bodies by pressures pressure(p).
   template <class F>
   void find(const F& pressure) {
-    each_of_copies([&](const BlockCopies& copies, size_t first, size_t last) {
-      flow_by_pushes(copies, first, last, to_.gradients.data(), to_.weights.data(),
-                     to_.flows.data(), to_.rows.data());
-    });
-    if (corrected_) lever_flows();
+    s_.each_batch<SingleVector>(
+        [&](size_t first, size_t end, SingleVector* sums) {
+          if (corrected_)
+            push_groups(s_.pairs, first, end, to_.stresses.data(), sums);
+          else
+            push_groups(s_.pairs, first, end, to_.pushes.data(), sums);
+        },
+        [&](size_t, size_t p, const SingleVector& sum) {
+          const SingleVector& g = to_.gradients[p];
+          const float w = to_.weights[p];
+          SingleVector& flow = to_.rows[p].flow;
+          flow = {-g.w * (sum.x + w * g.x), -g.w * (sum.y + w * g.y), -g.w * (sum.z + w * g.z), 0};
+          if (corrected_ && touched(p)) lever(p, flow);
+        });
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies(pressure);
     for (size_t b = 0; b < forces.size(); ++b) responses_[b] = s_.response(b, forces[b]);
   }
-  /// f(chunk, p, rate of change of the particle's rate by the flows [1/s2]), which sets the weight
-  /// of p; by that the particle pushes. A few particles at a time: the second time their pairs are
-  /// read they are still in a near cache.
+  /// f(chunk, p, rate of change of the particle's rate by the flows [1/s2]).
   template <class F>
-  void open_and_press(const F& f) {
-    s_.each_block([&](const FluidBlock& block, size_t chunk) {
-      each_batch(block, chunk, [&](size_t first, std::span<const float> found) {
-        for (size_t k = 0; k < found.size(); ++k)
-          f(chunk, first + k, double(found[k]) + opened_by_bodies(first + k));
-        press(block, chunk, first - block.first, first - block.first + found.size());
-      });
+  void open(const F& f) {
+    each_opened([&](size_t chunk, size_t p, float found) {
+      f(chunk, p, double(found) + opened_by_bodies(p));
     });
   }
   /// By the flows [m/s2].
   Vec3 acceleration(size_t p) const {
-    const SingleVector& u = to_.flows[p];
-    return 1 / double(to_.volumes[p]) * Vec3(double(u.x), double(u.y), double(u.z));
+    return 1 / double(to_.volumes[p]) * vector(to_.rows[p].flow);
   }
   double diagonal(size_t p) const { return corrected_ ? s_.corrected_diagonal[p] : s_.diagonal[p]; }
 
   /// Accelerations of the fluid, in double.
   void find_exactly(const std::vector<double>& pressure) {
-    FluidState& s = s_;
-    to_.own.resize(s.size());
-    s.each([&](size_t p) { to_.exact_weights[p] = s.volume[p] * pressure[p]; });
-    const double unit = s.kernel.scale() / s.kernel.reach();  // of gradients, [1/m4]
-    s.each_block([&](const FluidBlock& block, size_t chunk) {
-      FluidVector* rows = to_.exact_rows.data() + to_.first_row[chunk] + block.first_row;
-      for (size_t r = 0; r < block.rows.size(); ++r) rows[r] = {0, 0, 0, s.volume[block.rows[r]]};
-      press_exactly(points(), block, to_.exact_weights.data(), rows, to_.own.data() + block.first);
-    });
-    s.each([&](size_t p) {
-      Vec3 force = unit / s.volume[p] * to_.own[p].vector();
-      for (size_t k = to_.first_copy[p]; k < to_.first_copy[p + 1]; ++k)
-        force -= unit * to_.exact_rows[to_.copies[k]].vector();
-      for (const WallTouch& t : s.touches_of(p)) force += pressure[p] * gradient(t);
-      const Vec3 plain = -(1 / s.density[p]) * force;
-      s.acceleration.set(p, corrected_ && touched(p) ? Vec3(plain + levered(p, plain)) : plain);
-    });
-  }
-  /// The same of plain sums, without blocks.
-  void find_from_lists(const std::vector<double>& pressure) {
-    FluidState& s = s_;
-    s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure[p])); });
-    s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
-      const Vec3 force = pressure[p] * s.gradient[p] + pressed(s, p, sum);
-      s.acceleration.set(p, -(1 / s.density[p]) * force);
-    });
+    if (corrected_)
+      find_corrected(pressure);
+    else
+      find_plain(pressure);
   }
   /// Accelerations that were found have acted for the sub-step.
   void act(const std::vector<double>& pressure) {
@@ -169,59 +161,51 @@ class PressureForces {
   }
 
  private:
-  static SingleVector single(const Vec3& v, double w) {
-    return {float(v[0]), float(v[1]), float(v[2]), float(w)};
-  }
-  BlockPoints points() const {
-    const SmoothingKernel& kernel = s_.kernel;
-    return {s_.at.data(), corrected_ ? s_.correction.data() : nullptr, kernel.reach(),
-            kernel.steepest() * kernel.reach() / kernel.scale()};
-  }
-  /// Particles `first` to `end` of a block push their neighbours by their weights.
-  void press(const FluidBlock& block, size_t chunk, size_t first, size_t end) {
-    std::array<float, tolerances::batch_particles> weights;
-    for (size_t k = first; k < end; ++k)
-      weights[k - first] = to_.units[block.first + k] * to_.weights[block.first + k];
-    press_pairs(block, pairs(block, chunk), weights.data(), first, end, rows(block, chunk));
-  }
-  BlockPair* pairs(const FluidBlock& block, size_t chunk) {
-    return to_.pairs[chunk][block.first_pair / FluidPairStore::batch].all;
-  }
-  BlockRow* rows(const FluidBlock& block, size_t chunk) {
-    return to_.rows.data() + to_.first_row[chunk] + block.first_row;
-  }
-  /// f(copies, first, last) for ranges of places.
-  template <class F>
-  void each_of_copies(const F& f) {
-    const BlockCopies copies{to_.first_copy.data(), to_.copies.data()};
-    for_chunks(s_.crew, s_.size(),
-               [&](size_t, size_t first, size_t last) { f(copies, first, last); });
-  }
-  /// f(first place, rates by the flows) for a few particles of a block at a time.
-  template <class F>
-  void each_batch(const FluidBlock& block, size_t chunk, const F& f) {
-    std::array<float, tolerances::batch_particles> rates;
-    const auto per_unit = float(1 / s_.kernel.reach());
-    for (size_t k = 0; k < block.ends.size(); k += rates.size()) {
-      const size_t end = std::min(block.ends.size(), k + rates.size()), first = block.first + k;
-      open_pairs(block, pairs(block, chunk), rows(block, chunk), k, end, rates.data());
-      for (size_t n = 0; n < end - k; ++n) {
-        const SingleVector &u = to_.flows[first + n], &g = to_.gradients[first + n];
-        rates[n] =
-            per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - to_.units[first + n] * rates[n]);
-      }
-      f(first, {rates.data(), end - k});
-    }
-  }
-  /// Flows beside walls, with what these add.
-  void lever_flows() {
+  void find_corrected(const std::vector<double>& pressure) {
     FluidState& s = s_;
+    to_.exact_stresses.resize(s.lists.places());
+    to_.exact_stresses.back() = {};
     s.each([&](size_t p) {
-      if (!touched(p)) return;
-      SingleVector& u = to_.flows[p];
-      const Vec3 more = double(to_.volumes[p]) * levered(p, acceleration(p));
-      u = {u.x + float(more[0]), u.y + float(more[1]), u.z + float(more[2]), u.w};
+      to_.exact_stresses[p] =
+          SymmetricRow<double>::of(s.correction[p]).times(s.volume[p] * pressure[p]);
     });
+    s.each_batch<FluidVector>(
+        [&](size_t first, size_t end, FluidVector* sums) {
+          push_exactly(s.pairs, first, end, s.at.data(), to_.exact_stresses.data(), sums);
+        },
+        [&](size_t, size_t p, const FluidVector& sum) {
+          Vec3 force = pressure[p] * (s.correction[p] * s.fluid_gradient[p]) + sum.vector();
+          for (const WallTouch& t : s.touches_of(p)) force += pressure[p] * t.corrected;
+          const Vec3 plain = -(1 / s.density[p]) * force;
+          s.acceleration.set(p, touched(p) ? Vec3(plain + levered(p, plain)) : plain);
+        });
+  }
+  void find_plain(const std::vector<double>& pressure) {
+    FluidState& s = s_;
+    s.each([&](size_t p) { s.terms.put(p, pressing(s, p, pressure[p])); });
+    s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
+      const Vec3 force = pressure[p] * s.gradient[p] + pressed(s, p, sum);
+      s.acceleration.set(p, -(1 / s.density[p]) * force);
+    });
+  }
+  /// f(chunk, p, rate by the flows).
+  template <class F>
+  void each_opened(const F& f) {
+    const auto per_unit = float(1 / s_.kernel.reach());
+    s_.each_batch<float>(
+        [&](size_t first, size_t end, float* sums) {
+          open_groups(s_.pairs, first, end, to_.rows.data(),
+                      corrected_ ? to_.corrections.data() : nullptr, sums);
+        },
+        [&](size_t chunk, size_t p, float sum) {
+          const SingleVector &u = to_.rows[p].flow, &g = to_.gradients[p];
+          f(chunk, p, per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - sum));
+        });
+  }
+  /// Adds to a flow what walls do.
+  void lever(size_t p, SingleVector& flow) {
+    const Vec3 more = double(to_.volumes[p]) * levered(p, acceleration(p));
+    flow = {flow.x + float(more[0]), flow.y + float(more[1]), flow.z + float(more[2]), 0};
   }
   bool touched(size_t p) const { return s_.first_touch[p] != s_.first_touch[p + 1]; }
   /// What walls add to a particle's acceleration by pressures.
@@ -269,10 +253,9 @@ class PressureForces {
 /// Rayleigh's quotient of the last step says: beside walls, and where particles lie closely, there
 /// are stiffer ones. Gives the number of iterations.
 ///
-/// An iteration goes through the pairs once: as soon as the residual of a few particles is known
-/// they step on, and push their neighbours by the pressures of the next iteration. What the sums
-/// over all residuals say of the steps' length and of hills therefore comes an iteration later, and
-/// the pressures at which the iterations end are those before the last step.
+/// As soon as the residual of a particle is known it steps on. What the sums over all residuals say
+/// of the steps' length and of hills therefore comes an iteration later, and the pressures at which
+/// the iterations end are those before the last step.
 class PressureSolve {
  public:
   /// `error`: where iterations end, as a share of density [-].
@@ -296,7 +279,7 @@ class PressureSolve {
   }
 
   int run() {
-    forces_.begin();
+    s_.each([&](size_t p) { forces_.press(p); });
     double momentum = 1;
     for (int iterations = 0;; ++iterations) {
       forces_.find([&](size_t p) { return double(sought_[p].now); });
@@ -329,7 +312,7 @@ class PressureSolve {
   PassSums pass(double keep) {
     const auto length = float(tolerances::gradient_step / s_.stiffest), kept = float(keep);
     std::array<PassSums, chunk_count> parts{};
-    forces_.open_and_press([&](size_t chunk, size_t p, double rate) {
+    forces_.open([&](size_t chunk, size_t p, double rate) {
       SoughtPressure& of = sought_[p];
       PassSums& sums = parts[chunk];
       const float residual = of.source + float(rate), change = of.now - of.before;
@@ -344,6 +327,7 @@ class PressureSolve {
       of.stepped = stepped;
       of.now = std::max(0.0f, stepped + kept * way);
       weights_[p] = of.volume * of.now;
+      forces_.press(p);
     });
     PassSums total;
     for (const PassSums& part : parts) {
@@ -380,6 +364,7 @@ class PressureSolve {
 }  // namespace
 
 void solve_pressure(FluidState& s) {
+  place_rows(s);
   PressureForces forces(s, s.corrects() ? Sums::corrected : Sums::of_shares, true);
   forces.take_operands();
   std::vector<double>& source = s.pressure_operands.source;
@@ -395,6 +380,8 @@ void solve_pressure(FluidState& s) {
   forces.act(s.pressure);
 }
 
+// The rows are those of solve_pressure.
+//
 // Shares are linear in places only nearby, and a particle whose share hardly depends on its place,
 // as one that has come into a wall, would be thrown anywhere: the shift is no longer than the way
 // that the Courant condition allows in a sub-step.
@@ -427,7 +414,7 @@ void press_by_state(FluidState& s, double sound_speed) {
   PressureForces forces(s, Sums::of_shares, true);
   s.report.density_error =
       s.sum([&](size_t p) { return std::max(0.0, s.share[p] - 1); }) / double(s.size());
-  forces.find_from_lists(s.pressure);
+  forces.find_exactly(s.pressure);
   forces.act(s.pressure);
 }
 

@@ -33,10 +33,8 @@ double SmoothingKernel::slope(double r) const {
   return scale_ / reach_ * (24 * w * w - 6 * u * u);
 }
 
-// The derivatives of 18 q^2 - 12 q, which is the spline's slope near by, and of q (1 - q)^3 are
-// zero there.
-double SmoothingKernel::steepest() const {
-  return -slope(reach_ / (kind_ == FluidKernelKind::wendland ? 4 : 3));
+double SmoothingKernel::sharpest() const {
+  return (kind_ == FluidKernelKind::wendland ? 20 : 12) * scale_ / (reach_ * reach_);
 }
 
 double SmoothingKernel::half_space(double distance) const {

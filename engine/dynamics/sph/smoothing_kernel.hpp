@@ -22,8 +22,8 @@ class SmoothingKernel {
 
   double value(double r) const;  ///< W [1/m3]
   double slope(double r) const;  ///< dW/dr [1/m4]
-  /// The largest size of the slope [1/m4].
-  double steepest() const;
+  /// No slope over the distance is steeper than this, which it is where they meet [1/m5].
+  double sharpest() const;
 
   /// What a half-space holds of the kernel about a point at a signed distance [m] from it [-], and
   /// minus its derivative [1/m]: the integral of W over the plane at that distance.

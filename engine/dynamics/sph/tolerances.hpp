@@ -34,11 +34,9 @@ inline constexpr double lever_mass = 1;
 /// some sub-steps.
 inline constexpr double list_skin = 0.1;
 
-/// Particles of a block [-]: so many that they have few neighbours for each of them, and so few
-/// that what these hold stays in a cache of 250 kB.
-inline constexpr size_t block_particles = 4096;
-/// Particles whose pairs are gone through twice in turn [-]: these take about 8 kB.
-inline constexpr size_t batch_particles = 32;
+/// Groups of particles whose sums are found before they are made use of [-]: these then are still
+/// in the nearest cache.
+inline constexpr size_t batch_groups = 16;
 
 /// Steps of the pressure solve, times the largest eigenvalue over the diagonal [-]: accelerated
 /// gradients are stable up to 4/3 where their momentum is nearly 1.

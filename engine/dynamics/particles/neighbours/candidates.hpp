@@ -17,13 +17,13 @@ class Candidates {
                uint32_t first_ghost, std::span<const uint32_t> ordinals) {
     centre_ = cells.size() * Vec3(double(cell.i) + 0.5, double(cell.j) + 0.5, double(cell.k) + 0.5);
     size_ = 0;
-    for (int64_t dk = -1; dk <= 1; ++dk)
-      for (int64_t dj = -1; dj <= 1; ++dj)
-        for (int64_t di = -1; di <= 1; ++di) {
-          const int64_t i = cell.i + di, j = cell.j + dj, k = cell.k + dk;
-          if (const CellOrder::Cell* at = cells.find(i, j, k)) add(*at, 0, x, y, z);
-          if (const CellOrder::Cell* at = ghosts.find(i, j, k)) add(*at, first_ghost, x, y, z);
-        }
+    if (ghosts.cells().empty()) {
+      std::array<const CellOrder::Cell*, 27> about;
+      const size_t found = cells.about(cell, about);
+      for (size_t n = 0; n < found; ++n) add(*about[n], 0, x, y, z);
+    } else {
+      add_with_ghosts(cells, ghosts, cell, x, y, z, first_ghost);
+    }
     if (!ordinals.empty()) sort(ordinals);
     make_room(batch);
     for (; size_ % batch != 0; ++size_) {
@@ -44,6 +44,17 @@ class Candidates {
     if (size_ + more <= place_.size()) return;
     for (std::vector<float>* c : {&x_, &y_, &z_}) c->resize(2 * (size_ + more));
     place_.resize(2 * (size_ + more));
+  }
+  void add_with_ghosts(const CellOrder& cells, const CellOrder& ghosts, const CellOrder::Cell& cell,
+                       std::span<const double> x, std::span<const double> y,
+                       std::span<const double> z, uint32_t first_ghost) {
+    for (int64_t dk = -1; dk <= 1; ++dk)
+      for (int64_t dj = -1; dj <= 1; ++dj)
+        for (int64_t di = -1; di <= 1; ++di) {
+          const int64_t i = cell.i + di, j = cell.j + dj, k = cell.k + dk;
+          if (const CellOrder::Cell* at = cells.find(i, j, k)) add(*at, 0, x, y, z);
+          if (const CellOrder::Cell* at = ghosts.find(i, j, k)) add(*at, first_ghost, x, y, z);
+        }
   }
   void add(const CellOrder::Cell& cell, uint32_t first, std::span<const double> x,
            std::span<const double> y, std::span<const double> z) {

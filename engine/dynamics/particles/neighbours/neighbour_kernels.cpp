@@ -38,15 +38,43 @@ size_t gather_near_here(const NeighbourCandidates& c, const float* point, float 
   return found;
 }
 
+size_t gather_four_here(const NeighbourCandidates& c, const float (&points)[3][4], float reach2,
+                        uint32_t* out) {
+  const hn::CappedTag<float, 8> lanes;
+  const hn::Rebind<uint32_t, decltype(lanes)> places;
+  const auto most = hn::Set(lanes, reach2);
+  size_t found = 0;
+  for (size_t k = 0; k < c.padded; k += hn::Lanes(lanes)) {
+    const auto x = hn::LoadU(lanes, c.x + k), y = hn::LoadU(lanes, c.y + k),
+               z = hn::LoadU(lanes, c.z + k);
+    const auto square = [&](size_t n) HWY_ATTR {
+      const auto dx = hn::Sub(x, hn::Set(lanes, points[0][n])),
+                 dy = hn::Sub(y, hn::Set(lanes, points[1][n])),
+                 dz = hn::Sub(z, hn::Set(lanes, points[2][n]));
+      return hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+    };
+    const auto least = hn::Min(hn::Min(square(0), square(1)), hn::Min(square(2), square(3)));
+    const Compressor<decltype(places)> compress(hn::RebindMask(places, hn::Le(least, most)));
+    hn::StoreU(compress(hn::LoadU(places, c.place + k)), places, out + found);
+    found += compress.count();
+  }
+  return found;
+}
+
 }  // namespace tumble::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace tumble {
 HWY_EXPORT(gather_near_here);
+HWY_EXPORT(gather_four_here);
 size_t gather_near(const NeighbourCandidates& candidates, const float* point, float reach2,
                    uint32_t self, uint32_t* out) {
   return HWY_DYNAMIC_DISPATCH(gather_near_here)(candidates, point, reach2, self, out);
+}
+size_t gather_near_four(const NeighbourCandidates& candidates, const float (&points)[3][4],
+                        float reach2, uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(gather_four_here)(candidates, points, reach2, out);
 }
 }  // namespace tumble
 #endif

@@ -19,5 +19,9 @@ struct NeighbourCandidates {
 /// eight more.
 size_t gather_near(const NeighbourCandidates& candidates, const float* point, float reach2,
                    uint32_t self, uint32_t* out);
+/// The same of four points together, by coordinate: the candidates within reach of any of them, and
+/// they themselves.
+size_t gather_near_four(const NeighbourCandidates& candidates, const float (&points)[3][4],
+                        float reach2, uint32_t* out);
 
 }  // namespace tumble

@@ -65,6 +65,31 @@ Vec3 shifted(const PeriodicBox& box, const Vec3& x, const Edges& n) {
 
 }  // namespace
 
+/// Lists of a chunk, one behind the other.
+class NeighbourLists::ListWriter {
+ public:
+  ListWriter(std::vector<uint32_t>& store, uint32_t filling) : store_(store), filling_(filling) {}
+  /// Room for so many places of the next list.
+  uint32_t* room(size_t most) {
+    if (store_.size() < used_ + most) store_.resize(2 * (used_ + most));
+    return store_.data() + used_;
+  }
+  /// Keeps as many as were found, and fills them up to a multiple of `batch`.
+  std::span<const uint32_t> keep(size_t found, size_t batch) {
+    const size_t padded = (found + batch - 1) / batch * batch;
+    uint32_t* list = store_.data() + used_;
+    std::fill_n(list + found, padded - found, filling_);
+    used_ += padded;
+    return {list, padded};
+  }
+  size_t used() const { return used_; }
+
+ private:
+  std::vector<uint32_t>& store_;
+  uint32_t filling_;
+  size_t used_ = 0;
+};
+
 Result<bool> NeighbourLists::update(std::span<const Vec3> x, const Request& request, Crew* crew) {
   if (Status fine = check_points(x, request); !fine) return fine.error();
   if (hold(x, request, crew)) {
@@ -75,7 +100,10 @@ Result<bool> NeighbourLists::update(std::span<const Vec3> x, const Request& requ
   place_points(x, crew);
   add_ghosts();
   number_places();
-  list_cells(crew);
+  if (request_.by_group)
+    list_groups(crew);
+  else
+    list_cells(crew);
   from_x_ = px_, from_y_ = py_, from_z_ = pz_;
   return true;
 }
@@ -133,6 +161,7 @@ void NeighbourLists::place_points(std::span<const Vec3> x, Crew* crew) {
   }
   cells_.sort(points, request_.reach + request_.skin);
   order_.assign(cells_.order().begin(), cells_.order().end());
+  if (request_.by_group) sort_octants(points);
   px_.resize(order_.size()), py_.resize(order_.size()), pz_.resize(order_.size());
   for_chunks(crew, order_.size(), [&](size_t, size_t first, size_t last) {
     for (size_t p = first; p < last; ++p) {
@@ -140,6 +169,23 @@ void NeighbourLists::place_points(std::span<const Vec3> x, Crew* crew) {
       px_[p] = at[0], py_[p] = at[1], pz_[p] = at[2];
     }
   });
+}
+
+/// Sorts the points of a cell by its eighths, so that those of a group are near each other.
+void NeighbourLists::sort_octants(std::span<const Vec3> points) {
+  const double per_half = 2 / cells_.size();
+  for (const CellOrder::Cell& cell : cells_.cells()) {
+    const Vec3 middle(2 * double(cell.i) + 1, 2 * double(cell.j) + 1, 2 * double(cell.k) + 1);
+    const auto octant = [&](uint32_t index) {
+      const Vec3 x = per_half * points[index];
+      return int(x[0] >= middle[0]) + 2 * int(x[1] >= middle[1]) + 4 * int(x[2] >= middle[2]);
+    };
+    octants_.clear();
+    for (uint32_t p = cell.first; p < cell.end; ++p)
+      octants_.push_back({octant(order_[p]), order_[p]});
+    std::ranges::sort(octants_);
+    for (uint32_t p = cell.first; p < cell.end; ++p) order_[p] = octants_[p - cell.first].second;
+  }
 }
 
 void NeighbourLists::add_ghosts() {
@@ -217,43 +263,77 @@ void NeighbourLists::number_places() {
   for (size_t k = 0; k < sorted.size(); ++k) ordinals_[size() + k] = of_copies[sorted[k]];
 }
 
-void NeighbourLists::list_cells(Crew* crew) {
+template <class F>
+void NeighbourLists::each_cell(Crew* crew, const F& f) {
   const std::span<const CellOrder::Cell> cells = cells_.cells();
-  const auto filling = uint32_t(places() - 1);
-  const double reach = request_.reach + request_.skin;
-  const auto reach2 = float(reach * reach * (1 + tolerances::neighbour_rounding));
-  lists_.resize(size());
   stores_.resize(chunk_count);
   candidates_.resize(chunk_count);
   for_chunks(
       crew, cells.size(),
       [&](size_t chunk, size_t first, size_t last) {
-        std::vector<uint32_t>& store = stores_[chunk];
-        size_t used = 0;
+        ListWriter writer(stores_[chunk], uint32_t(places() - 1));
         Candidates& near = candidates_[chunk];
         for (size_t c = first; c < last; ++c) {
           near.collect(cells_, ghost_cells_, cells[c], px_, py_, pz_, uint32_t(size()), ordinals_);
-          const NeighbourCandidates candidates = near.view();
-          for (uint32_t p = cells[c].first; p < cells[c].end; ++p) {
-            const size_t begin = used, room = begin + candidates.padded + batch;
-            if (store.size() < room) store.resize(2 * room);
-            const auto point = near.relative({px_[p], py_[p], pz_[p]});
-            const size_t found =
-                gather_near(candidates, point.data(), reach2, p, store.data() + begin);
-            const size_t padded = (found + batch - 1) / batch * batch;
-            std::fill_n(store.begin() + ptrdiff_t(begin + found), padded - found, filling);
-            used += padded;
-            lists_[p] = {uint32_t(chunk), uint32_t(begin), uint32_t(found), uint32_t(padded), 0};
-            if (!request_.by_index) continue;
-            const std::span<const uint32_t> list{store.data() + begin, found};
-            lists_[p].before =
-                uint32_t(std::ranges::lower_bound(list, ordinals_[p], {},
-                                                  [this](uint32_t q) { return ordinals_[q]; }) -
-                         list.begin());
-          }
+          f(chunk, c, near, writer);
         }
       },
       16);
+}
+
+void NeighbourLists::list_cells(Crew* crew) {
+  const std::span<const CellOrder::Cell> cells = cells_.cells();
+  const double reach = request_.reach + request_.skin;
+  const auto reach2 = float(reach * reach * (1 + tolerances::neighbour_rounding));
+  lists_.resize(size());
+  each_cell(crew, [&](size_t chunk, size_t c, const Candidates& near, ListWriter& writer) {
+    const NeighbourCandidates candidates = near.view();
+    for (uint32_t p = cells[c].first; p < cells[c].end; ++p) {
+      const auto point = near.relative({px_[p], py_[p], pz_[p]});
+      const size_t found =
+          gather_near(candidates, point.data(), reach2, p, writer.room(candidates.padded + batch));
+      const std::span<const uint32_t> list = writer.keep(found, batch);
+      lists_[p] = {uint32_t(chunk), uint32_t(writer.used() - list.size()), uint32_t(found),
+                   uint32_t(list.size()), 0};
+      if (!request_.by_index) continue;
+      const auto real = list.first(found);
+      lists_[p].before =
+          uint32_t(std::ranges::lower_bound(real, ordinals_[p], {},
+                                            [this](uint32_t q) { return ordinals_[q]; }) -
+                   real.begin());
+    }
+  });
+}
+
+void NeighbourLists::list_groups(Crew* crew) {
+  const std::span<const CellOrder::Cell> cells = cells_.cells();
+  const double reach = request_.reach + request_.skin;
+  const auto reach2 = float(reach * reach * (1 + tolerances::neighbour_rounding));
+  first_group_.resize(cells.size());
+  uint32_t count = 0;
+  for (size_t c = 0; c < cells.size(); ++c) {
+    first_group_[c] = count;
+    count += uint32_t((cells[c].end - cells[c].first + group_size - 1) / group_size);
+  }
+  groups_.resize(count);
+  each_cell(crew, [&](size_t chunk, size_t c, const Candidates& near, ListWriter& writer) {
+    const NeighbourCandidates candidates = near.view();
+    uint32_t g = first_group_[c];
+    for (uint32_t first = cells[c].first; first < cells[c].end; first += group_size, ++g) {
+      const uint32_t end = std::min(cells[c].end, first + uint32_t(group_size));
+      float points[3][group_size];
+      for (uint32_t n = 0; n < group_size; ++n) {
+        const uint32_t p = std::min(first + n, end - 1);
+        const auto point = near.relative({px_[p], py_[p], pz_[p]});
+        for (size_t k = 0; k < 3; ++k) points[k][n] = point[k];
+      }
+      const size_t found = gather_near_four(candidates, points, reach2,
+                                            writer.room(candidates.padded + batch + look_ahead));
+      const size_t padded = writer.keep(found, group_size).size();
+      groups_[g] = {first, end - first, uint32_t(chunk), uint32_t(writer.used() - padded),
+                    uint32_t(padded)};
+    }
+  });
 }
 
 }  // namespace tumble

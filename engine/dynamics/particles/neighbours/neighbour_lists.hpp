@@ -7,6 +7,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -21,7 +22,11 @@ namespace tumble {
 /// half of the skin (Verlet 1967).
 class NeighbourLists {
  public:
-  static constexpr size_t batch = 8;  ///< lists are padded to a multiple of it
+  static constexpr size_t batch = 8;       ///< lists are padded to a multiple of it
+  static constexpr size_t group_size = 4;  ///< most points of a group
+  /// Behind the list of a group as many numbers more can be read: for the most part those of the
+  /// next lists, whose points can so be fetched in advance.
+  static constexpr size_t look_ahead = 64;
 
   struct Request {
     double reach = 0;      ///< points whose distance is at most this are neighbours [m]
@@ -31,6 +36,9 @@ class NeighbourLists {
     /// the grid: the order of neighbours within reach then depends on the points only, not on when
     /// and with which skin the lists were made.
     bool by_index = false;
+    /// Makes one list for each group of points that follow each other, instead of one for each
+    /// point.
+    bool by_group = false;
     bool operator==(const Request&) const = default;
   };
 
@@ -65,6 +73,17 @@ class NeighbourLists {
   }
   /// Number of entries that are not padding.
   uint32_t count(size_t place) const { return lists_[place].count; }
+  /// With Request::by_group: points of one cell, and one list for all of them.
+  struct Group {
+    uint32_t first, count;          ///< places
+    uint32_t store, begin, padded;  ///< the list
+  };
+  std::span<const Group> groups() const { return groups_; }
+  /// Places of what is within reach and skin of any point of a group, and of these themselves,
+  /// padded to a multiple of four.
+  std::span<const uint32_t> of(const Group& g) const {
+    return {stores_[g.store].data() + g.begin, g.padded};
+  }
   /// With Request::by_index: how many of them precede the point itself in the order, so that each
   /// pair can be visited once.
   uint32_t before(size_t place) const { return lists_[place].before; }
@@ -77,6 +96,7 @@ class NeighbourLists {
   Vec3 beside(size_t place, size_t other) const;
 
  private:
+  class ListWriter;
   struct List {
     uint32_t store, first, count, padded, before;
   };
@@ -86,7 +106,12 @@ class NeighbourLists {
   void place_points(std::span<const Vec3> x, Crew* crew);
   void add_ghosts();
   void number_places();
+  void sort_octants(std::span<const Vec3> points);
+  /// f(chunk, cell's index, its candidates) for all cells.
+  template <class F>
+  void each_cell(Crew* crew, const F& f);
   void list_cells(Crew* crew);
+  void list_groups(Crew* crew);
   void move(std::span<const Vec3> x, Crew* crew);
 
   Request request_;
@@ -102,8 +127,11 @@ class NeighbourLists {
   std::vector<double> from_x_, from_y_, from_z_;  ///< by place: positions when lists were made [m]
   CellOrder cells_, ghost_cells_;
   std::vector<List> lists_;
+  std::vector<Group> groups_;
+  std::vector<uint32_t> first_group_;          ///< by cell
   std::vector<std::vector<uint32_t>> stores_;  ///< by chunk of cells
   // Scratch memory.
+  std::vector<std::pair<int, uint32_t>> octants_;
   std::vector<Vec3> ghost_points_;
   std::vector<Edges> copies_;
   std::vector<uint32_t> owners_, firsts_;
