@@ -235,6 +235,26 @@ TEST_CASE("grains that collide obliquely keep momentum and angular momentum, and
   CHECK(spun > 1);
 }
 
+TEST_CASE("grains that graze gain no energy, wherever in a tick they meet") {
+  // Two smooth balls whose paths pass at 1.9 radii: the second meets the first at .31 of its speed.
+  const double radius = 0.01, speed = 1.25;
+  int struck = 0;
+  for (const double threshold : {0.01, 0.5})
+    for (const double e : {0.5, 0.9})
+      for (int n = 0; n < 20; ++n) {
+        Sandbox box({0, 0}, 0, e);
+        box.gravity.setZero();
+        box.settings.restitution_threshold = threshold;
+        box.add({0, 1, 0}, Vec3::Zero(), radius);
+        box.add({0.03 + n * speed * box.h / 20, 1 + 1.9 * radius, 0}, {-speed, 0, 0}, radius);
+        const double energy = box.energy();
+        box.run(0.2);
+        CHECK(box.energy() < energy * (1 + 1e-6));
+        struck += box.grains().v[0].norm() > 0.05 * speed;
+      }
+  CHECK(struck == 80);
+}
+
 TEST_CASE("a column of grains weighs on the ground and on each other what stands above") {
   Sandbox box;
   box.settings.sleeping = false;

@@ -93,6 +93,7 @@ void GrainCells::Near::collect(const GrainCells& in, const CellOrder::Cell& cell
     make_room(size + (at.end - at.first) + 2 * grain_batch);
     size = add_near_cell(in.columns(), at.first, at.end, centre_.data(), half, view(), size);
   });
+  size_ = size;
   padded_ = (size + grain_batch - 1) / grain_batch * grain_batch;
   for (; size < padded_; ++size) {
     x_[size] = y_[size] = z_[size] = tolerances::far_coordinate;

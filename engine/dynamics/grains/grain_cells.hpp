@@ -27,6 +27,8 @@ class GrainCells {
   class Near {
    public:
     void collect(const GrainCells& in, const CellOrder::Cell& cell);
+    /// Places of the grains that were collected.
+    std::span<const uint32_t> places() const { return {place_.data(), size_}; }
     /// Grains whose extent, enlarged by `more` metres, meets that of the k-th grain, and whose
     /// ordinals are above `after`: indices for place().
     std::span<const uint32_t> of(const GrainCells& in, uint32_t k, double more, int32_t after);
@@ -39,7 +41,7 @@ class GrainCells {
       return {x_.data(), y_.data(), z_.data(), extent_.data(), place_.data(), ordinal_.data()};
     }
     Vec3 centre_ = Vec3::Zero();
-    size_t padded_ = 0;
+    size_t size_ = 0, padded_ = 0;
     std::vector<float> x_, y_, z_, extent_;
     std::vector<uint32_t> place_, found_;
     std::vector<int32_t> ordinal_;

@@ -1,6 +1,7 @@
 #include "engine/dynamics/grains/grain_field.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/grains/grain_touch.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
@@ -9,6 +10,25 @@
 #include <limits>
 
 namespace tumble {
+
+namespace {
+
+/// How many grains ahead a grain of a system is fetched: some hundred nanoseconds.
+constexpr size_t gather_ahead = 8;
+
+/// Grains lie in their systems in another order than here, each in eight arrays.
+void prefetch_grain(const ParticleSystem& p, size_t index) {
+  prefetch(&p.x[index]);
+  prefetch(&p.v[index]);
+  prefetch(&p.spin[index]);
+  prefetch(&p.force[index]);
+  prefetch(&p.radius[index]);
+  prefetch(&p.mass[index]);
+  prefetch(&p.id[index]);
+  prefetch(&p.rest[index]);
+}
+
+}  // namespace
 
 double GrainField::rest_speed(const GrainTick& tick, double radius) {
   return tick.settings.sleep_speed * std::sqrt(tick.gravity.norm() * radius);
@@ -40,6 +60,12 @@ Status GrainField::line_up(const GrainTick& tick) {
   return {};
 }
 
+GrainField::Owner GrainField::owner_of(uint32_t n) const {
+  const auto after = std::ranges::upper_bound(first, n);
+  const auto system = uint32_t(after - first.begin() - 1);
+  return {system, n - first[system]};
+}
+
 Status GrainField::gather(const GrainTick& tick) {
   if (Status fine = line_up(tick); !fine) return fine;
   const size_t count = by_ordinal_.size();
@@ -53,13 +79,13 @@ Status GrainField::gather(const GrainTick& tick) {
   ordinal.assign(curve_.order().begin(), curve_.order().end());
   for_chunks(tick.crew, count, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
+      const Owner later = owner_of(ordinal[std::min(i + gather_ahead, end - 1)]);
+      prefetch_grain(tick.systems[later.system], later.index);
       const uint32_t n = ordinal[i];
       place_of[n] = uint32_t(i);
-      const auto after = std::ranges::upper_bound(first, n);
-      const auto k = uint32_t(after - first.begin() - 1);
+      owner[i] = owner_of(n);
+      const auto [k, index] = owner[i];
       const ParticleSystem& p = tick.systems[k];
-      const uint32_t index = n - first[k];
-      owner[i] = {k, index};
       key[i] = grain_key(k, p.id[index]);
       points[i] = {p.x[index], p.radius[index]};
       asleep[i] = p.rest[index].asleep();

@@ -57,6 +57,8 @@ struct GrainField {
 
  private:
   Status line_up(const GrainTick& tick);
+  /// The owner of the grain of this ordinal.
+  Owner owner_of(uint32_t n) const;
 
   CellOrder curve_;
   std::vector<Vec3> by_ordinal_;

@@ -82,7 +82,9 @@ void GrainMemory::recall(const GrainTick& tick, const GrainField& grains,
   find_own(tick, grains, all);
   recall_pairs(tick, grains, all, pairs);
   for (const std::span<GrainBodyRow> rows : {walls, held})
-    for (GrainBodyRow& row : rows) recall_row(all, hs, row);
+    for_chunks(tick.crew, rows.size(), [&](size_t, size_t first, size_t last) {
+      for (GrainBodyRow& row : rows.subspan(first, last - first)) recall_row(all, hs, row);
+    });
   std::array<Left, chunk_count> left;
   for_chunks(tick.crew, all.size(), [&](size_t chunk, size_t first, size_t last) {
     for (size_t k = first; k < last; ++k)

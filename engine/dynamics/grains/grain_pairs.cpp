@@ -1,6 +1,7 @@
 #include "engine/dynamics/grains/grain_pairs.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
@@ -127,6 +128,11 @@ Status GrainPairs::find(const GrainTick& tick, GrainField& grains, double h, Gra
   counts_.assign(grains.size(), 0);
   const auto stirs = [this](size_t c) { return cells_.stirs(c); };
   each_cell(tick.crew, stirs, [&](Search& search, const CellOrder::Cell& cell) {
+    // Grains of the cell have most of them in common as candidates.
+    for (const uint32_t i : search.near.places()) {
+      prefetch(&grains.points[i]);
+      prefetch(&grains.movers[i]);
+    }
     for (uint32_t k = cell.first; k < cell.end; ++k) find_of(grains, h, k, search);
   });
   out.first.resize(grains.size() + 1);

@@ -214,13 +214,15 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
   std::vector<uint32_t> who;
   std::vector<Vec3> start, v;
   std::vector<double> core;
-  for (size_t i = 0; i < grains.size(); ++i) {
-    const Vec3 way = grains.points[i].x - from[i];
+  const auto went_far = [&](size_t i, NothingKept&, std::vector<uint32_t>& out) {
+    const double way = (grains.points[i].x - from[i]).norm();
     const double far = tolerances::grain_looks * grains.points[i].radius;
-    if (grains.asleep[i] || way.norm() + longest_way_ * (h / tick.h) <= far) continue;
-    who.push_back(uint32_t(i));
+    if (!grains.asleep[i] && way + longest_way_ * (h / tick.h) > far) out.push_back(uint32_t(i));
+  };
+  gather_found<NothingKept>(tick.crew, grains.size(), who, went_far);
+  for (const uint32_t i : who) {
     start.push_back(from[i]);
-    v.push_back(way / h);
+    v.push_back((grains.points[i].x - from[i]) / h);
     core.push_back(tolerances::grain_core * grains.points[i].radius);
   }
   if (who.empty()) return size_t{0};

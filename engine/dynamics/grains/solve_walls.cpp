@@ -1,5 +1,6 @@
 #include "engine/dynamics/grains/solve_walls.hpp"
 
+#include "engine/core/prefetch.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
@@ -113,10 +114,17 @@ struct WallSolver {
   }
 };
 
+/// How many rows ahead the grain of a row is fetched: some hundred nanoseconds.
+constexpr size_t rows_ahead = 2;
+
 /// Calls f(solver) for each row.
 template <class F>
 void each_row(const GrainWalls& in, std::span<GrainBodyRow> rows, const F& f) {
-  for (GrainBodyRow& row : rows) {
+  for (size_t k = 0; k < rows.size(); ++k) {
+    GrainBodyRow& row = rows[k];
+    const uint32_t later = rows[std::min(k + rows_ahead, rows.size() - 1)].a;
+    prefetch(&in.rows[later]);
+    prefetch(&in.movers[later]);
     WallGrain grain(in.rows[row.a], in.movers[row.a]);
     f(WallSolver{row, grain, in.bodies[row.b]});
   }
