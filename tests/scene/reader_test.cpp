@@ -220,22 +220,22 @@ TEST_CASE("repetition: absurd counts, copies that do not exist") {
 
 TEST_CASE("gravity may follow time, by expressions and tables, and is written as it was read") {
   std::string text =
-      scene_with(R"("settings": {"gravity": [0, "= -9.81*cos(t)", [[0, 0], [2, 3]]]})");
+      scene_with(R"~("settings": {"gravity": [0, "= -9.81*cos(t)", [[0, 0], [2, 3]]]})~");
   for (int i = 0; i < 2; ++i) {
-  const SceneRead read = read_scene(text, "x.json");
-  INFO(all_text(read.faults));
-  REQUIRE(read.ok());
-  VaryingVec3 gravity = read.scene.settings.gravity;
-  CHECK(gravity.now() == Vec3(0, -9.81, 0));
-  CHECK_FALSE(gravity.of[0].varies());
-  gravity.go_to(1);
-  CHECK(gravity.now().y() == doctest::Approx(-9.81 * std::cos(1.0)).epsilon(1e-12));
-  CHECK(gravity.now().z() == doctest::Approx(1.5));
-  text = write_scene(read.scene);
-}
-check_faults(scene_with("\"settings\": {\n\"gravity\": [0, \"= 1 + \", [[1, 0], [1, 2]]]}"),
-             {{3, "settings.gravity[1]", "expected a value"},
-              {3, "settings.gravity[2]", "ascend"}});
+    const SceneRead read = read_scene(text, "x.json");
+    INFO(all_text(read.faults));
+    REQUIRE(read.ok());
+    VaryingVec3 gravity = read.scene.settings.gravity;
+    CHECK(gravity.now() == Vec3(0, -9.81, 0));
+    CHECK_FALSE(gravity.of[0].varies());
+    gravity.go_to(1);
+    CHECK(gravity.now().y() == doctest::Approx(-9.81 * std::cos(1.0)).epsilon(1e-12));
+    CHECK(gravity.now().z() == doctest::Approx(1.5));
+    text = write_scene(read.scene);
+  }
+  check_faults(
+      scene_with("\"settings\": {\n\"gravity\": [0, \"= 1 + \", [[1, 0], [1, 2]]]}"),
+      {{3, "settings.gravity[1]", "expected a value"}, {3, "settings.gravity[2]", "ascend"}});
 }
 
 TEST_CASE("parameters: unknown, without a finite value, not whole") {
