@@ -60,7 +60,9 @@ void end_substep(const SolverIsland& island, double hs, bool hit, bool bounced) 
 /// before the bodies move, or after it, when the next sub-step would close it. `hit` is the speed
 /// of a hit in this sub-step so far, 0 if there was none.
 void look_for_hit(const SolverIsland& island, double hs, double& hit) {
-  if (hit > 0 || island.joints.empty() || !island.springs.empty()) return;
+  const size_t joints = island.joints.size();
+  if (hit > 0 || joints == 0 || joints > tolerances::most_joints_of_hit) return;
+  if (!island.springs.empty()) return;
   hit = hit_speed(island, hs);
   if (!(hit > 0)) return;
   // Near a limit they are those before that took part.
