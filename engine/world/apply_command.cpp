@@ -365,21 +365,23 @@ struct Apply {
 
   /// Whether bodies that rest under the old settings may not rest under the new ones.
   static bool disturbs_rest(const WorldSettings& old, const WorldSettings& now) {
-    return now.gravity != old.gravity || now.tick != old.tick || now.stepper != old.stepper ||
-           now.realtime.sleeping != old.realtime.sleeping ||
+    return now.gravity.now() != old.gravity.now() || now.tick != old.tick ||
+           now.stepper != old.stepper || now.realtime.sleeping != old.realtime.sleeping ||
            now.realtime.sleep_speed < old.realtime.sleep_speed;
   }
 
   Status operator()(const SetSettings& c) {
     if (Status status = choose_algorithms(s, c.settings); !status) return status;
-    if (disturbs_rest(s.settings, c.settings)) {
+    WorldSettings wanted = c.settings;
+    wanted.gravity.go_to(s.time());
+    if (disturbs_rest(s.settings, wanted)) {
       wake_all(s.bodies.bodies);
       for (ParticleSystem& p : s.particles) p.wake_grains();
     }
-    if (c.settings.tick != s.settings.tick) {
+    if (wanted.tick != s.settings.tick) {
       s.clock = {s.tick, s.time()};
     }
-    s.settings = c.settings;
+    s.settings = std::move(wanted);
     return {};
   }
 };

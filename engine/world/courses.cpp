@@ -150,6 +150,28 @@ double gained(WorldState& s, uint32_t slot) {
   return potential_energy(def, s.force_context()) - before;
 }
 
+/// Sum of mass times position over all that gravity acts on [kg m]: its energy is minus its
+/// acceleration times this.
+Vec3 weighed(const WorldState& s) {
+  Vec3 sum = Vec3::Zero();
+  for (const RigidBody& b : s.bodies.bodies)
+    if (b.dynamic()) sum += b.gravity_scale * b.mass * b.pose.x;
+  for (const ParticleSystem& p : s.particles)
+    for (size_t i = 0; i < p.size(); ++i) sum += p.gravity_scale * p.mass[i] * p.x[i];
+  return sum;
+}
+
+Status check_gravity(const WorldState& s) {
+  for (const double t : {0.5 * (s.time() + s.time_after()), s.time_after()})
+    if (!gravity_at(s, t).allFinite()) return no_value(t, "settings.gravity");
+  return {};
+}
+
+void rouse_all(WorldState& s) {
+  for (uint32_t slot = 0; slot < s.bodies.bodies.size(); ++slot) rouse(s, slot);
+  for (ParticleSystem& p : s.particles) p.wake_grains();
+}
+
 bool finite(const Aim& a) {
   return a.frame.x.allFinite() && a.frame.q.coeffs().allFinite() && a.turn.allFinite();
 }
@@ -207,12 +229,29 @@ void set_velocity(WorldState& s, uint32_t slot, const Aim& aim) {
 }  // namespace
 
 bool has_courses(const WorldState& s) {
-  return !s.on_course.empty() || !s.joints.timed.empty() || !s.forces_on_course.empty();
+  return !s.on_course.empty() || !s.joints.timed.empty() || !s.forces_on_course.empty() ||
+         s.settings.gravity.varies();
+}
+
+Vec3 gravity_at(const WorldState& s, double t) {
+  Vec3 out;
+  for (int k = 0; k < 3; ++k) {
+    const Varying& part = s.settings.gravity.of[size_t(k)];
+    out[k] = part.course ? part.course->at(t) : part.value;
+  }
+  return out;
+}
+
+double greatest_gravity(const WorldState& s) {
+  const double t0 = s.time(), t1 = s.time_after();
+  return std::max(
+      {gravity_at(s, t0).norm(), gravity_at(s, 0.5 * (t0 + t1)).norm(), gravity_at(s, t1).norm()});
 }
 
 CourseSupply::CourseSupply(WorldState& s) {
   for (const uint32_t slot : s.forces_on_course) before_.push_back(gained(s, slot));
-  reset_forces(s);
+  if (s.settings.gravity.varies()) weighed_before_ = weighed(s);
+  return_to_now(s);
 }
 
 void CourseSupply::book(WorldState& s) const {
@@ -221,6 +260,10 @@ void CourseSupply::book(WorldState& s) const {
     s.ledger.book_force(slot, {.balance = 0.5 * (before_[i] + gained(s, slot))});
     go_to(*s.forces[slot], s.time_after());
   }
+  if (!s.settings.gravity.varies()) return;
+  const Vec3 change = gravity_at(s, s.time_after()) - gravity_at(s, s.time());
+  s.ledger.book(LedgerLine::gravity, {.balance = -0.5 * change.dot(weighed_before_ + weighed(s))});
+  s.settings.gravity.go_to(s.time_after());
 }
 
 void set_motor_targets(WorldState& s) {
@@ -244,6 +287,7 @@ Status follow_courses(WorldState& s) {
   ForceDef scratch;
   for (const uint32_t slot : s.forces_on_course)
     if (Status fine = check_force(s, slot, scratch); !fine) return fine;
+  if (Status fine = check_gravity(s); !fine) return fine;
   for (size_t i = 0; i < drives.size(); ++i) set_targets(s, s.joints.timed[i], drives[i]);
   for (size_t i = 0; i < aims.size(); ++i) set_velocity(s, s.on_course[i], aims[i]);
   for (const uint32_t slot : s.forces_on_course) {
@@ -251,11 +295,14 @@ Status follow_courses(WorldState& s) {
     if (differs_at(def, s.time_after())) rouse_pulled(s, def);
     go_to(def, 0.5 * (s.time() + s.time_after()));
   }
+  if (s.settings.gravity.differs_at(s.time_after())) rouse_all(s);
+  s.settings.gravity.go_to(0.5 * (s.time() + s.time_after()));
   return {};
 }
 
-std::vector<CourseMotion> course_motions(const WorldState& s) {
-  std::vector<CourseMotion> out;
+std::span<const CourseMotion> course_motions(WorldState& s) {
+  std::vector<CourseMotion>& out = s.workspace.courses;
+  out.clear();
   const double half = 0.5 * s.settings.tick.tick();
   for (const uint32_t slot : s.on_course) {
     const RigidBody& b = s.bodies.bodies[slot];
@@ -332,8 +379,9 @@ void begin_force(WorldState& s, uint32_t slot) {
   if (follows) go_to(*s.forces[slot], s.time());
 }
 
-void reset_forces(WorldState& s) {
+void return_to_now(WorldState& s) {
   for (const uint32_t slot : s.forces_on_course) go_to(*s.forces[slot], s.time());
+  s.settings.gravity.go_to(s.time());
 }
 
 void find_courses(WorldState& s) {

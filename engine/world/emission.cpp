@@ -78,7 +78,7 @@ class ParticleEmission {
     Vec3 x, v;
   };
   Past before(const ParticleSystem& p, size_t i, double ago) const {
-    const Vec3 a = p.gravity_scale * s_.settings.gravity;
+    const Vec3 a = p.gravity_scale * s_.settings.gravity.now();
     return {p.x[i] - ago * p.v[i] + (0.5 * ago * ago) * a, p.v[i] - ago * a};
   }
 
@@ -242,7 +242,7 @@ class ParticleEmission {
 
   /// Whether a contact goes on if it was one before: its gap is that of a rattle.
   bool near(const Contact& c) const {
-    const double rattle = tolerances::rattle_gap * s_.settings.gravity.norm() * h_ * h_;
+    const double rattle = tolerances::rattle_gap * s_.settings.gravity.now().norm() * h_ * h_;
     return std::ranges::any_of(c.used(), [&](const ContactPoint& p) { return p.gap <= rattle; });
   }
 
@@ -328,7 +328,7 @@ class ParticleEmission {
     if (p.size() >= most_of_a_system) too_many_ = &e;
     if (too_many_) return;
     ParticleDef born = next_particle(e, place, end_ - ago - e.begun);
-    const Vec3 a = p.gravity_scale * s_.settings.gravity;
+    const Vec3 a = p.gravity_scale * s_.settings.gravity.now();
     if (!d.events.empty()) {
       const auto at = [&](double before_end) -> Past {
         const double t = ago - before_end;

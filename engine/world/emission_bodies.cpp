@@ -87,8 +87,8 @@ class BodyEmission {
       if (e == s_.emitters.list.end()) return {};
       for (const Emitter::Asked& a : std::exchange(e->asked, {})) {
         const double since = std::max(0.0, s_.time() - a.time);
-        const Vec3 x = a.x + since * a.v + (0.5 * since * since) * s_.settings.gravity;
-        const Vec3 v = a.v + since * s_.settings.gravity;
+        const Vec3 x = a.x + since * a.v + (0.5 * since * since) * s_.settings.gravity.now();
+        const Vec3 v = a.v + since * s_.settings.gravity.now();
         for (int i = 0; i < a.count; ++i)
           if (Status done = bear(*e, {{x, e->def->pose.q}, x, v, Vec3::Zero()}, a.time); !done)
             return done;

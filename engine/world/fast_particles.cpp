@@ -24,7 +24,7 @@ class FastExchange {
   FastExchange(WorldState& state, const TickBackup& start)
       : s_(state), h_(state.settings.tick.tick()), start_poses_(start.poses()) {
     finder_.use_threads(s_.crew.get());
-    resting_ = 2 * s_.settings.gravity.norm() * h_;
+    resting_ = 2 * s_.settings.gravity.now().norm() * h_;
     for (uint32_t k = 0; k < s_.particles.size(); ++k) {
       if (!exchanges(s_, k)) continue;
       const ParticleSystem& p = s_.particles[k];

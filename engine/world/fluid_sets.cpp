@@ -56,7 +56,7 @@ void gather_fluids(const WorldState& s, std::span<const uint32_t> set,
     to.fluid.insert(to.fluid.end(), p.size(), uint8_t(to.defs.size()));
     to.defs.push_back(p.fluid.get());
     append(to.x, p.x), append(to.v, p.v), append(to.pressure, p.pressure), append(to.mass, p.mass);
-    const Vec3 g = p.gravity_scale * s.settings.gravity;
+    const Vec3 g = p.gravity_scale * s.settings.gravity.now();
     for (size_t i = 0; i < p.size(); ++i) to.acceleration.push_back(g + p.force[i] / p.mass[i]);
   }
   to.x_before = to.x, to.v_before = to.v;

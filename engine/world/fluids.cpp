@@ -137,7 +137,7 @@ class FluidStage {
       body.inverse_mass = b.inverse_mass;
       body.inverse_inertia = b.inverse_inertia_world();
       if (!work_.pressed[slot]) {
-        body.acceleration = b.gravity_scale * s_.settings.gravity + b.inverse_mass * b.force;
+        body.acceleration = b.gravity_scale * s_.settings.gravity.now() + b.inverse_mass * b.force;
         body.angular_acceleration = body.inverse_inertia * b.torque;
       }
     }
@@ -170,7 +170,7 @@ class FluidStage {
       }
     }
     work_.on_bodies.resize(kept);
-    const double weight = tolerances::waking_push * s_.settings.gravity.norm();
+    const double weight = tolerances::waking_push * s_.settings.gravity.now().norm();
     for (const FluidWorkspace::OnBody& on : work_.on_bodies) {
       RigidBody& b = s_.bodies.bodies[on.slot];
       if (!b.dynamic()) continue;
@@ -204,7 +204,7 @@ class FluidStage {
       const ParticleSystem& p = s_.particles[set[n]];
       for (size_t k = 0; k < p.size(); ++k) {
         const size_t i = all.first[n] + k;
-        weight.add(entry(i, p.mass[k] * p.gravity_scale * s_.settings.gravity));
+        weight.add(entry(i, p.mass[k] * p.gravity_scale * s_.settings.gravity.now()));
         gained.momentum += p.mass[k] * (p.v[k] - all.v_before[i]);
         gained.angular_momentum +=
             p.mass[k] * (p.x[k].cross(p.v[k]) - all.x_before[i].cross(all.v_before[i]));

@@ -59,8 +59,8 @@ class GrainBooks {
   void change() {
     for (uint32_t k = 0; k < s_.particles.size(); ++k) {
       if (!alive_grains(s_, k)) continue;
-      rest_.add(s_.particles[k], s_.settings.gravity, 1);
-      rest_.add(start_.particles()[k], s_.settings.gravity, -1);
+      rest_.add(s_.particles[k], s_.settings.gravity.now(), 1);
+      rest_.add(start_.particles()[k], s_.settings.gravity.now(), -1);
     }
     for (const GrainReport::Pushed& p : s_.workspace.grain_report.bodies) {
       const RigidBody& b = s_.bodies.bodies[p.slot];
@@ -96,7 +96,8 @@ class GrainBooks {
       if (!alive_grains(s_, k)) continue;
       const ParticleSystem &from = start_.particles()[k], &to = s_.particles[k];
       for (size_t i = 0; i < to.size(); ++i)
-        weight.add(push_on(from, to, i, to.mass[i] * to.gravity_scale * s_.settings.gravity, h_));
+        weight.add(
+            push_on(from, to, i, to.mass[i] * to.gravity_scale * s_.settings.gravity.now(), h_));
     }
     s_.ledger.book(LedgerLine::gravity, weight);
     explained(weight, 0);
@@ -129,7 +130,8 @@ class GrainBooks {
 }  // namespace
 
 void carry_on_grains(WorldState& s) {
-  s.workspace.grains.carry(s.grain_touches, s.bodies, s.settings.gravity, s.settings.tick.tick());
+  s.workspace.grains.carry(s.grain_touches, s.bodies, s.settings.gravity.now(),
+                           s.settings.tick.tick());
 }
 
 Status step_grains(WorldState& s, const TickBackup& start) {
@@ -142,7 +144,7 @@ Status step_grains(WorldState& s, const TickBackup& start) {
                        s.particle_ids,
                        s.bodies,
                        poses,
-                       s.settings.gravity,
+                       s.settings.gravity.now(),
                        s.settings.tick.tick(),
                        s.settings.realtime,
                        s.crew.get()};

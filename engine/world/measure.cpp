@@ -34,7 +34,7 @@ BodySums sum_block(const WorldState& s, size_t block) {
   const size_t end = std::min((block + 1) * block_size, s.bodies.bodies.size());
   BodySums sum;
   for (size_t i = block * block_size; i < end; ++i)
-    if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], s.settings.gravity);
+    if (s.bodies.bodies[i].dynamic()) sum.add(s.bodies.bodies[i], s.settings.gravity.now());
   return sum;
 }
 
@@ -102,7 +102,7 @@ void measure(WorldState& s) {
   out.bodies = s.bodies.ids.count();
   out.particles = 0;
   out.energies = {};
-  const Vec3 g = s.settings.gravity;
+  const Vec3 g = s.settings.gravity.now();
   const BodySums sum = sum_bodies(s);
   out.awake = sum.awake;
   out.energies.kinetic = sum.kinetic;
@@ -127,10 +127,10 @@ LedgerState measured(const WorldState& s) {
 
 LedgerState measure_particles(WorldState& s, std::vector<ParticleSystem>& systems) {
   StepStats sum;
-  for (const ParticleSystem& p : systems) add_particles(p, s.settings.gravity, sum);
+  for (const ParticleSystem& p : systems) add_particles(p, s.settings.gravity.now(), sum);
   BodySet no_bodies;
   const ForceContext context{no_bodies, s.particle_ids, systems, s.settings.tick.tick(),
-                             s.settings.gravity};
+                             s.settings.gravity.now()};
   for (const auto& force : s.forces)
     if (force && field_targets(*force)) sum.energies.fields += potential_energy(*force, context);
   return ledger_state(sum);

@@ -265,7 +265,7 @@ void publish_frame(WorldState& s) {
   frame->tick = s.tick;
   frame->rate = s.settings.tick;
   frame->time = s.time();
-  frame->gravity = s.settings.gravity;
+  frame->gravity = s.settings.gravity.now();
   frame->broad_phase = s.settings.broad_phase;
   frame->infos = !s.frames.last || s.frames.infos_changed ? make_infos(s) : s.frames.last->infos;
   const bool joints_changed = s.frames.infos_changed;

@@ -2,7 +2,7 @@
 #include "engine/core/parameters.hpp"
 #include "engine/dynamics/event/event_settings.hpp"
 #include "engine/dynamics/realtime/realtime_settings.hpp"
-#include "engine/math/types.hpp"
+#include "engine/math/varying.hpp"
 #include "engine/world/time.hpp"
 
 #include <string>
@@ -14,7 +14,9 @@ namespace tumble {
 /// Everything about a world that can be changed while it runs. Part of the state.
 struct WorldSettings {
   TickRate tick;
-  Vec3 gravity{0, -9.81, 0};                              ///< [m/s2]
+  /// May follow a course. Between ticks it is what it is now, within one what it is in the middle
+  /// of that [m/s2].
+  VaryingVec3 gravity{0, -9.81, 0};
   std::string stepper = "realtime";                       ///< name in stepper_names()
   std::string broad_phase = "uniform_grid";               ///< name in all_broad_phases()
   std::string hierarchy = "aabb";                         ///< name in all_hierarchies()

@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-constexpr uint32_t version = 1;
+/// 2: gravity that follows a course.
+constexpr uint32_t version = 2;
 /// 2: closest features of polyhedra. 3: cached results of the narrow phase. 4: by shape instead of
 /// body. 5: rolling and torsional friction. 6: no patch radius for torsion. 7: by body where a body
 /// with several shapes is paired as a whole.
@@ -49,8 +50,8 @@ constexpr uint32_t ledger_version = 5;
 /// 14: sensors. 15: sub-steps of grains; bodies as in version 8 of theirs. 16: other definitions
 /// for particles and emitters that there are. 17: bodies as in version 9 of theirs.
 /// 18: emitters as in version 6 of theirs; spins of particles; sensors as in version 2; trails.
-/// 19: forces as in version 2 of theirs.
-constexpr uint32_t queue_version = 19;
+/// 19: forces as in version 2 of theirs. 20: gravity that follows a course.
+constexpr uint32_t queue_version = 20;
 
 void write_geometry(ByteWriter& out, const WorldState& s, bool with_geometry) {
   std::set<uint64_t> keys;
@@ -354,7 +355,7 @@ Result<uint64_t> load_state(WorldState& target, std::span<const std::byte> snaps
   s.shapes = target.shapes;
   ByteReader in(snapshot);
   read_geometry(in, *s.shapes);
-  in.begin_section("world");
+  if (in.begin_section("world") != version) return damaged;
   s.settings = read_settings(in);
   in.value(s.tick);
   in.value(s.clock.tick);

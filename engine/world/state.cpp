@@ -13,7 +13,7 @@ namespace tumble {
 
 ForceContext WorldState::force_context() {
   const double h = settings.tick.tick();
-  ForceContext context{bodies, particle_ids, particles, h, settings.gravity, 0.5 * h, time()};
+  ForceContext context{bodies, particle_ids, particles, h, settings.gravity.now(), 0.5 * h, time()};
   context.particle_slots = blocks.first_slots();
   context.crew = crew.get();
   return context;
@@ -78,6 +78,7 @@ struct RangeCheck {
                     "settings",
                     {}};
   }
+  void field(const VaryingVec3& value, const Parameter& p) { field(value.now(), p); }
   void field(const TickRate& value, const Parameter& p) {
     if (value.num <= 0 || value.den <= 0) {
       if (!fault)

@@ -5,6 +5,7 @@
 #include "engine/core/profiler.hpp"
 #include "engine/core/result.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/dynamics/bodies/course_motion.hpp"
 #include "engine/dynamics/bodies/roster.hpp"
 #include "engine/dynamics/contact/contact_set.hpp"
 #include "engine/dynamics/event/event_stepper.hpp"
@@ -117,6 +118,7 @@ struct Workspace {
   GrainStage grains;
   GrainReport grain_report;  ///< of the present tick
   SensorScratch sensors;
+  std::vector<CourseMotion> courses;  ///< of the present tick
 };
 
 /// The state before the present tick, which is restored if the tick fails.

@@ -128,7 +128,7 @@ Status move_bodies(WorldState& s, const TickForces& forces, TimeStepping& time_s
   const ScopedStage stage(s.profiler, "events");
   EventContext context;
   context.settings = s.settings.event;
-  context.gravity = s.settings.gravity.norm();
+  context.gravity = greatest_gravity(s);
   context.narrow_phase = s.methods.narrow_phase;
   context.hierarchy = s.methods.hierarchy;
   context.name_of = [&s](uint32_t slot) { return body_label(s, slot); };
@@ -137,8 +137,7 @@ Status move_bodies(WorldState& s, const TickForces& forces, TimeStepping& time_s
   context.joints = s.joints.joints;
   context.couplings = s.joints.couplings;
   context.time_stepping = &time_stepping;
-  const std::vector<CourseMotion> courses = course_motions(s);
-  context.courses = courses;
+  context.courses = course_motions(s);
   const std::vector<double> rates = spring_rates(s.forces, s.force_context());
   context.spring_rates = rates;
   if (s.watch && s.bodies.find(s.watch->body)) {
@@ -221,8 +220,8 @@ Status run_event_stages(WorldState& s) {
   book_tick(s);
   count_work(s);
   publish_contacts(s, time_stepping->contacts());
-  s.workspace.books.particles(s.particles, s.forces, s.settings.gravity, s.settings.tick.tick(),
-                              s.blocks, s.ledger);
+  s.workspace.books.particles(s.particles, s.forces, s.settings.gravity.now(),
+                              s.settings.tick.tick(), s.blocks, s.ledger);
   integrate_particles(s);
   for (ParticleSystem& p : s.particles)
     if (p.fluid) std::ranges::fill(p.force, Vec3(Vec3::Zero()));

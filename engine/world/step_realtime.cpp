@@ -197,18 +197,19 @@ class BetweenStages final : public TickListener {
     s_.workspace.books.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
                                  s_.joints.energies(s_.bodies.bodies).total()};
     s_.workspace.books.end_part(
-        {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity, part},
+        {s_.bodies.bodies, s_.contacts, s_.islands, s_.forces, s_.settings.gravity.now(), part},
         s_.ledger, *s_.crew);
   }
   void put_back(const ContinuousStage& stage) override {
     const ScopedStage timed(s_.profiler, "books");
-    s_.workspace.books.put_back(s_.bodies.bodies, stage, s_.settings.gravity, s_.ledger, *s_.crew);
+    s_.workspace.books.put_back(s_.bodies.bodies, stage, s_.settings.gravity.now(), s_.ledger,
+                                *s_.crew);
   }
   void slept() override { book_corrections(s_, LedgerLine::sleeping); }
   void moved() override {
     {
       const ScopedStage stage(s_.profiler, "books");
-      s_.workspace.books.particles(s_.particles, s_.forces, s_.settings.gravity,
+      s_.workspace.books.particles(s_.particles, s_.forces, s_.settings.gravity.now(),
                                    s_.settings.tick.tick(), s_.blocks, s_.ledger);
     }
     integrate_particles(s_);
@@ -268,7 +269,7 @@ Status step_realtime(WorldState& state) {
   state.event.time_stepped_particles.clear();
   state.stats.events = state.stats.impacts = state.stats.fallbacks = 0;
   state.stats.time_stepped = 0;
-  const std::vector<CourseMotion> courses = course_motions(state);
+  const std::span<const CourseMotion> courses = course_motions(state);
   Status status = run_stages(state, courses);
   state.blocks.remove(state.bodies.bodies);
   if (status && !stop_requested()) status = step_grains(state, backup);

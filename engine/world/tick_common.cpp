@@ -132,7 +132,7 @@ Status check_finite(const WorldState& s) {
 
 RealtimeTick realtime_tick(WorldState& s, const TickChoice& choice) {
   return {.settings = choice.settings,
-          .gravity = s.settings.gravity,
+          .gravity = s.settings.gravity.now(),
           .h = s.settings.tick.tick(),
           .broad_phase = *s.methods.broad_phase,
           .path_broad_phase = *s.methods.path_broad_phase,
@@ -184,7 +184,7 @@ void integrate_particles(WorldState& s) {
   const ScopedStage stage(s.profiler, "particles");
   for (size_t i = 0; i < s.particles.size(); ++i)
     if (!s.blocks.has_blocks(i) && !s.particles[i].fluid && !s.particles[i].grains)
-      integrate(s.particles[i], s.settings.gravity, s.settings.tick.tick());
+      integrate(s.particles[i], s.settings.gravity.now(), s.settings.tick.tick());
 }
 
 void finish_particles(WorldState& s) {

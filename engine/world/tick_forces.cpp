@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/core/work_meter.hpp"
+#include "engine/world/courses.hpp"
 #include "engine/world/joint_drives.hpp"
 
 #include <algorithm>
@@ -91,9 +92,10 @@ void TickForces::assign_drives() {
 void TickForces::operator()(double t, std::span<const uint32_t> bodies) const {
   WorldState& s = state_;
   charge_work(bodies.size(), 150 * fields_.size() + 20);
+  const Vec3 gravity = gravity_at(s, s.time() + t);
   for (const uint32_t slot : bodies) {
     RigidBody& b = s.bodies.bodies[slot];
-    b.force = held_[slot].first + (b.mass * b.gravity_scale) * s.settings.gravity;
+    b.force = held_[slot].first + (b.mass * b.gravity_scale) * gravity;
     b.torque = held_[slot].second;
   }
   ForceContext context = s.force_context();
@@ -319,6 +321,7 @@ void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<con
   context.t += t;
   context.only = bodies;
   charge_work(causes.size(), 60 * bodies.size() + 60);
+  const Vec3 gravity = gravity_at(s, context.t);
   for (size_t i = 0; i < causes.size(); ++i) {
     if (causes[i] > springs_of_joints()) {
       out[i] = drive_effect(causes[i] - 1 == motors_of_joints(), t, bodies);
@@ -331,7 +334,7 @@ void TickForces::rates(double t, std::span<const uint32_t> bodies, std::span<con
     for (const uint32_t slot : bodies) {
       const RigidBody& b = s.bodies.bodies[slot];
       if (!b.dynamic()) continue;
-      out[i].add(effect_on(b, (b.mass * b.gravity_scale) * s.settings.gravity, Vec3::Zero()));
+      out[i].add(effect_on(b, (b.mass * b.gravity_scale) * gravity, Vec3::Zero()));
     }
   }
 }

@@ -36,11 +36,12 @@ class TimeSteppingBooks final : public TickListener {
     nets_.share(s_, part, books_.shares);
     books_.joints = {s_.joints.joints, s_.workspace.solver.joint_pushes(),
                      s_.joints.energies(s_.bodies.bodies).total()};
-    books_.end_part({s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity, part},
-                    s_.ledger, *s_.crew);
+    books_.end_part(
+        {s_.bodies.bodies, contacts_, s_.islands, s_.forces, s_.settings.gravity.now(), part},
+        s_.ledger, *s_.crew);
   }
   void put_back(const ContinuousStage& stage) override {
-    books_.put_back(s_.bodies.bodies, stage, s_.settings.gravity, s_.ledger, *s_.crew);
+    books_.put_back(s_.bodies.bodies, stage, s_.settings.gravity.now(), s_.ledger, *s_.crew);
   }
 
  private:

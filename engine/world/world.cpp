@@ -24,6 +24,7 @@ Result<std::unique_ptr<World>> World::create(WorldDef def, std::shared_ptr<Shape
   if (Status s = validate(def.settings); !s) return s.error();
   auto state = std::make_unique<WorldState>();
   state->settings = def.settings;
+  state->settings.gravity.go_to(state->time());
   state->log_sink = std::move(def.log);
   state->shapes = shapes ? std::move(shapes) : std::make_shared<ShapeStore>();
   tumble::set_threads(*state, def.threads);
@@ -81,7 +82,7 @@ Status advance(WorldState& s, const StepperEntry& stepper, bool repeatable) {
     }
   }
   if (!stepped) {
-    reset_forces(s);
+    return_to_now(s);
     s.stats = s.before.stats;
     s.ledger = s.before.ledger;
     s.islands = {};

@@ -70,7 +70,7 @@ Status validate_reserved(const ForceDef& def, WorldState& state) {
   BodySet reserved;
   reserved.ids = state.reserved.bodies;
   ForceContext context{reserved, state.reserved.particles, state.particles,
-                       state.settings.tick.tick(), state.settings.gravity};
+                       state.settings.tick.tick(), state.settings.gravity.now()};
   return validate(def, context);
 }
 

@@ -27,7 +27,7 @@ struct Swing {
 
   explicit Swing(const Vec3& x, const Vec3& v) {
     WorldDef def;
-    def.settings.gravity.setZero();
+    def.settings.gravity = Vec3::Zero();
     def.settings.stepper = "event";
     def.settings.event.integrator = "explicit_euler";
     auto made = World::create(std::move(def));

@@ -319,7 +319,7 @@ TEST_CASE("rolling friction under the event stepper, whether the scene or the us
     settings.stepper = "event";
     REQUIRE(s.world->set_settings(settings).ok());
     for (int i = 0; i < 60; ++i) REQUIRE(s.world->step().ok());
-    const double slowing = 5.0 / 7 * 0.02 * s.world->settings().gravity.norm() / 0.25;
+    const double slowing = 5.0 / 7 * 0.02 * s.world->settings().gravity.now().norm() / 0.25;
     const double t = 60 * s.world->settings().tick.tick();
     CHECK(body(s, "ball").v.x() == doctest::Approx(1 - slowing * t).epsilon(1e-9));
   }

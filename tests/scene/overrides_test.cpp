@@ -37,9 +37,9 @@ TEST_CASE("values of every kind") {
   CHECK(*good("bodies.ball.mass=3").bodies.find("ball")->mass == 3);
   CHECK(good("seed=7").seed == 7);
   CHECK(good("title=A b").title == "A b");
-  CHECK(good("settings.gravity=[0,-1.6,0]").settings.gravity == Vec3(0, -1.6, 0));
-  CHECK(good("settings.gravity.y=-3").settings.gravity == Vec3(0, -3, 0));
-  CHECK(good("settings.gravity[1]=-3").settings.gravity == Vec3(0, -3, 0));
+  CHECK(good("settings.gravity=[0,-1.6,0]").settings.gravity.now() == Vec3(0, -1.6, 0));
+  CHECK(good("settings.gravity.y=-3").settings.gravity.now() == Vec3(0, -3, 0));
+  CHECK(good("settings.gravity[1]=-3").settings.gravity.now() == Vec3(0, -3, 0));
   CHECK(good("settings.realtime.max_substeps=9").settings.realtime.max_substeps == 9);
   CHECK(good("settings.tick_hz=50/3").settings.tick == TickRate{50, 3});
   CHECK(good("bodies.ball.can_sleep=true").bodies.find("ball")->can_sleep);

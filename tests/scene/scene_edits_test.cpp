@@ -178,7 +178,7 @@ TEST_CASE("bodies, joints and springs that were added and removed are saved") {
   lunar.realtime.substeps = 7;
   const BuiltScene moon =
       built(saved(small, "small.json", {ChangedSettings{settings, lunar}}), "small.json");
-  CHECK(moon.world->settings().gravity.y() == -1.62);
+  CHECK(moon.world->settings().gravity.now().y() == -1.62);
   CHECK(moon.world->settings().realtime.substeps == 7);
 }
 

@@ -55,7 +55,7 @@ double mechanical_energy(const World& world, const std::vector<BodyId>& bodies) 
   double e = 0;
   for (const BodyId id : bodies) {
     const RigidBody& b = *world.body(id);
-    e += b.kinetic_energy() - b.mass * world.settings().gravity.dot(b.pose.x);
+    e += b.kinetic_energy() - b.mass * world.settings().gravity.now().dot(b.pose.x);
   }
   return e;
 }

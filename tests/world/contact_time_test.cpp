@@ -15,7 +15,7 @@ namespace {
 
 WorldSettings with_contact_time(std::string_view method, std::string_view narrow_phase = "gjk") {
   WorldSettings s;
-  s.gravity.setZero();
+  s.gravity = Vec3::Zero();
   s.contact_time = method;
   s.narrow_phase = narrow_phase;
   return s;

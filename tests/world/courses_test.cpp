@@ -32,7 +32,7 @@ Course table(TimeCourse::Points points) {
 WorldSettings weightless(const char* stepper, int hz = 60) {
   WorldSettings s;
   s.stepper = stepper;
-  s.gravity.setZero();
+  s.gravity = Vec3::Zero();
   s.tick = {hz, 1};
   return s;
 }

@@ -35,7 +35,7 @@ struct Lab : TestWorld {
   static WorldSettings settings_of(const char* stepper, int hz) {
     WorldSettings s;
     s.stepper = stepper;
-    s.gravity.setZero();
+    s.gravity = Vec3::Zero();
     s.tick = {hz, 1};
     s.event.integrator = "rk4";
     return s;

@@ -177,7 +177,7 @@ TEST_CASE("the energy of a published body counts the products of its inertia") {
   // does. References: the statistics, which sum in world axes, and the sum over a fine grid of mass
   // points of 1/2 m |omega x r|^2, whose error is (1/32)^2.
   WorldSettings settings;
-  settings.gravity.setZero();
+  settings.gravity = Vec3::Zero();
   TestWorld w(settings);
   BodyDef def = TestWorld::box_def({0, 0, 0}, {1, 0.2, 0.3});
   BodyShapeDef arm = def.shapes[0];

@@ -39,7 +39,7 @@ Vec3 in_ball(Random& random, double radius) {
 /// The realtime stepper without gravity.
 WorldSettings weightless() {
   WorldSettings s;
-  s.gravity.setZero();
+  s.gravity = Vec3::Zero();
   return s;
 }
 

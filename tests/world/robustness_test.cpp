@@ -200,7 +200,7 @@ TEST_CASE("robust: a body that a kinematic one drags through a fixed wall is nam
       std::vector<std::string> said;
       WorldDef def;
       def.threads = 1;
-      def.settings.gravity.setZero();
+      def.settings.gravity = Vec3::Zero();
       def.log = [&said](LogLevel, std::string_view message) { said.emplace_back(message); };
       const auto w = std::move(*World::create(def));
       BodyDef cart = TestWorld::box_def({0, 2, 0}, {0.2, 0.2, 0.2});

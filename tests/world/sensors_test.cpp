@@ -57,7 +57,7 @@ SensorFrame reading(const World& world, SensorId id) {
 
 WorldSettings weightless(const char* stepper = "realtime") {
   WorldSettings s;
-  s.gravity.setZero();
+  s.gravity = Vec3::Zero();
   s.stepper = stepper;
   return s;
 }

@@ -116,7 +116,7 @@ struct Throw {
  private:
   static WorldSettings all_time_stepped() {
     WorldSettings s = settings("event", 1);
-    s.gravity.setZero();
+    s.gravity = Vec3::Zero();
     s.tick = {30, 1};
     return s;
   }

@@ -94,6 +94,23 @@ bool several_of_one(const ProxySet& set) {
          }) != set.first.end();
 }
 
+/// What the broad phase takes for the owner of a body's proxies: the bodies of a group share one,
+/// so that their pairs, which the filter would drop, are never collected. Groups whose number would
+/// be that of a body are left to the filter.
+uint32_t owner_of(const RigidBody& body, uint32_t slot, size_t bodies) {
+  const uint32_t group = ~body.group;
+  return body.group != 0 && group >= bodies ? group : slot;
+}
+
+void set_owners(std::span<const RigidBody> bodies, ProxySet& out) {
+  out.owners.clear();
+  const bool grouped = std::ranges::any_of(bodies, [](const RigidBody& b) { return b.group != 0; });
+  if (!grouped && !several_of_one(out)) return;
+  out.owners.reserve(out.first.back());
+  for (uint32_t i = 0; i < bodies.size(); ++i)
+    out.owners.insert(out.owners.end(), out.proxies_of(i), owner_of(bodies[i], i, bodies.size()));
+}
+
 void append_proxies_of(const ProxySet& set, std::span<const uint32_t> bodies,
                        std::vector<uint32_t>& out) {
   out.clear();
@@ -115,12 +132,7 @@ void number_proxies(std::span<const RigidBody> bodies, ProxySet& out, Crew* crew
   out.first.back() = 0;
   uint32_t total = 0;
   for (uint32_t& begin : out.first) begin = std::exchange(total, total + begin);
-  out.owners.clear();
-  if (several_of_one(out)) {
-    out.owners.reserve(total);
-    for (uint32_t i = 0; i < bodies.size(); ++i)
-      out.owners.insert(out.owners.end(), out.proxies_of(i), i);
-  }
+  set_owners(bodies, out);
   out.proxies.resize(total);
   out.refs.resize(total);
 }

@@ -24,9 +24,10 @@ struct ShapeRef {
 struct ProxySet {
   std::vector<BroadPhaseProxy> proxies;
   std::vector<ShapeRef> refs;
-  std::vector<uint32_t> first;   ///< by body slot: its first proxy; then the end
-  std::vector<uint32_t> owners;  ///< by proxy: its body; empty if no body has several proxies
-  ProxyNews news;                ///< of the last update
+  std::vector<uint32_t> first;  ///< by body slot: its first proxy; then the end
+  /// By proxy: its body, or the group of that; empty if no body has several proxies or a group.
+  std::vector<uint32_t> owners;
+  ProxyNews news;  ///< of the last update
   /// False if no dynamic body has a triangle mesh or looks far: then ticks need not be divided into
   /// parts.
   bool may_need_parts = true;

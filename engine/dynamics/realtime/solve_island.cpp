@@ -14,8 +14,9 @@ namespace {
 /// the impact has spread through the mechanism, and limits its energy to `taken`. One sweep would
 /// leave the points of one face at different speeds, and a box that falls flat would turn; without
 /// the limit a body that is caught between two walls, each of which is to be left, would gain speed
-/// with each sweep. Returns whether anything bounced.
-bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
+/// with each sweep. Returns whether anything bounced. `struck`: in a sub-step with an impact.
+bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken,
+            bool struck) {
   note_speeds(island, 1);
   note_joint_speeds(island);
   remember_velocities(island);
@@ -24,7 +25,7 @@ bool bounce(const SolverContext& c, const SolverIsland& island, double hs, doubl
     const double change = apply_restitution(c, island);
     if (turn == 0) {
       if (change == 0) return false;
-      if (!limit_bounces(island)) remember_impulses(island);
+      if (!struck) remember_impulses(island);
     }
     sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
     if (std::max(change, blow_change(island)) < tolerances::bounce_error) break;
@@ -48,10 +49,35 @@ Softness softness_of(const SolverIsland& island, double hs) {
   return out;
 }
 
-/// To be called after the relaxing pass.
-void end_substep(const SolverIsland& island, double hs, bool bounced) {
+/// To be called after the relaxing pass. `bounced`: contacts did.
+void end_substep(const SolverIsland& island, double hs, bool hit, bool bounced) {
   sum_joints(island, hs, JointPass::relaxing);
-  if (bounced || limit_bounces(island)) recall_impulses(island);
+  if (hit || bounced || limit_bounces(island)) recall_impulses(island);
+  if (hit) recall_contacts(island);
+}
+
+/// To be called before contacts are solved in either pass: whether one begins to press may be known
+/// before the bodies move, or after it, when the next sub-step would close it. `hit` is the speed
+/// of a hit in this sub-step so far, 0 if there was none.
+void look_for_hit(const SolverIsland& island, double hs, double& hit) {
+  const size_t joints = island.joints.size();
+  if (hit > 0 || joints == 0 || joints > tolerances::most_joints_of_hit) return;
+  if (!island.springs.empty()) return;
+  hit = hit_speed(island, hs);
+  if (!(hit > 0)) return;
+  // Near a limit they are those before that took part.
+  if (!nears_limit(island)) remember_impulses(island);
+  remember_contacts(island);
+}
+
+/// Solves joints and contacts in turn until a hit at this speed has spread through the mechanism.
+void spread_hit(const SolverIsland& island, double hs, double push_out, double speed) {
+  speed_change(island);
+  for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
+    sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
+    solve_rows(island, hs, push_out, false);
+    if (speed_change(island) < tolerances::bounce_error * speed) return;
+  }
 }
 
 /// Solves springs, joints and contacts in turn, until springs change little.
@@ -93,8 +119,10 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   const auto add_taken = [&](JointPass pass) {
     taken += taken_by_contacts(island) + taken_by_joints(island, pass);
   };
+  double hit = 0;
   for (int i = 0; i < n && !stop_requested(); ++i) {
-    if (i > 0) end_substep(island, hs, false);
+    if (i > 0) end_substep(island, hs, hit > 0, false);
+    hit = 0;
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
     warm_start(island);
@@ -102,6 +130,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     warm_start_joints(island, hs, JointPass::moving);
     if (island.springs.empty()) {
       move_onto_joints(island, hs);
+      look_for_hit(island, hs, hit);
       solve_rows(island, hs, push_out, true);
     } else {
       solve_springs(island, hs, push_out);
@@ -116,14 +145,17 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (measured) note_pass(1);
     warm_start_joints(island, hs, JointPass::relaxing);
     relax_joints(island, hs);
+    look_for_hit(island, hs, hit);
     if (!island.joints.empty()) solve_normals(island, hs, push_out);
     solve_rows(island, hs, push_out, false);
     if (island.joints.empty()) solve_friction_again(island);
+    if (hit > 0) spread_hit(island, hs, push_out, hit);
     if (i + 1 == n) follow_with_armatures(island, hs);
     if (measured) add_taken(JointPass::relaxing);
     sum_impulses(island);
   }
-  end_substep(island, hs, measured && bounce(c, island, hs, taken));
+  const bool struck = hit > 0 || limit_bounces(island);
+  end_substep(island, hs, hit > 0, measured && bounce(c, island, hs, taken, struck));
   store_springs(c, island);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};

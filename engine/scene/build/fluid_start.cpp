@@ -19,7 +19,8 @@ namespace {
 constexpr double start_clearance = 0.25;
 
 bool falls(const World& world, const ParticleSystemDef& def) {
-  return world.settings().gravity.norm() * std::fabs(def.gravity_scale) > 0;
+  const VaryingVec3& gravity = world.settings().gravity;
+  return (gravity.varies() || gravity.now().norm() > 0) && def.gravity_scale != 0;
 }
 
 bool ends(const ParticleSystemDef& def) {

@@ -211,7 +211,7 @@ void look_at_periodic_boxes(const BuiltScene& built, std::vector<std::string>& o
 /// falling through the fluid's depth is a tenth of the speed of sound c (Monaghan, "Simulating free
 /// surface flows with SPH", 1994).
 void look_at_sound(const BuiltScene& built, std::vector<std::string>& out) {
-  const Vec3& g = built.world->settings().gravity;
+  const Vec3 g = built.world->settings().gravity.now();
   for (const auto& [name, id] : built.particles) {
     const ParticleSystem* s = built.world->particles(id);
     if (!s || !s->fluid || s->fluid->solver != FluidSolverKind::wcsph || s->x.empty()) continue;

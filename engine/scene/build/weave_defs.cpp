@@ -125,7 +125,7 @@ struct Weaver {
     def.radius = d.radius;
     def.velocity = system.velocity;
     def.colour = system.colour.linear();
-    const Vec3 g = built.world->settings().gravity;
+    const Vec3 g = built.world->settings().gravity.now();
     if (g.norm() > 0) def.down = g;
     return weave_rope(def);
   }

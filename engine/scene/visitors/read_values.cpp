@@ -18,21 +18,11 @@ bool is_expression(const JsonNode& node) {
          (node.string[0] == '$' || node.string[0] == '=');
 }
 
-/// Why a value cannot follow time, and what can in its place.
-std::string stays_constant(const std::string& path) {
-  if (path.starts_with("settings.gravity"))
-    return "does not change with time: set gravity to [0, 0, 0], and give a force of type "
-           "uniform_field this acceleration, which may be an expression in t or a table (bodies "
-           "feel it whatever their gravity_scale)";
-  return "does not change with time: there is no t here";
-}
-
 /// The number that a node stands for, or a fault.
 std::optional<double> number(ReadContext& c, const JsonNode& node, const std::string& path) {
   if (node.is_number()) return node.number;
   if (!is_expression(node)) {
-    const bool table = node.is(Kind::array) && path.starts_with("settings.gravity");
-    c.fault(node, path, table ? stays_constant(path) : "must be a number, got " + brief(node));
+    c.fault(node, path, "must be a number, got " + brief(node));
     return std::nullopt;
   }
   const auto lookup = [&](std::string_view name) -> std::optional<double> {
@@ -48,7 +38,7 @@ std::optional<double> number(ReadContext& c, const JsonNode& node, const std::st
   for (const std::string& name : expression->names()) {
     if (lookup(name)) continue;
     if (name == "t") {
-      c.fault(node, path, stays_constant(path));
+      c.fault(node, path, "does not change with time: there is no t here");
       return std::nullopt;
     }
     std::vector<std::string> known;

@@ -193,7 +193,7 @@ Touch look_up(const WorldState& s, const SensorDef& def, double rattle) {
 
 void sense_contacts(WorldState& s) {
   const double h = s.settings.tick.tick();
-  const double rattle = tolerances::rattle_gap * s.settings.gravity.norm() * h * h;
+  const double rattle = tolerances::rattle_gap * s.settings.gravity.now().norm() * h * h;
   for_kind(s.sensors, SensorKind::contact, [&](uint32_t i) {
     const SensorDef& def = s.sensors.defs[i];
     SensorState& state = s.sensors.states[i];

@@ -288,7 +288,7 @@ TEST_CASE("to the next impact goes to the ticks in which a ball that was dropped
     REQUIRE((*world)->create_body(ground).ok());
     REQUIRE((*world)->create_body(ball).ok());
     REQUIRE((*world)->apply_commands().ok());
-    const double t = std::sqrt(2 / (*world)->settings().gravity.norm());
+    const double t = std::sqrt(2 / (*world)->settings().gravity.now().norm());
     const double tick = (*world)->settings().tick.tick();
     Session session(*std::move(world), paused());
     session.start();

@@ -102,7 +102,7 @@ TEST_CASE("a number that the settings follow is followed, and a setting stays be
   choice.numbers[2].second = 1;
   choice.settings.realtime.substeps = 7;
   w.compare(choice);
-  CHECK(w.seen().choice.settings.gravity.y() == -1);
+  CHECK(w.seen().choice.settings.gravity.now().y() == -1);
   CHECK(w.seen().choice.settings.realtime.substeps == 7);
   CHECK(w.seen().differences.size() == 3);  // gravity, substeps, g
   w.run(20);
@@ -222,7 +222,7 @@ TEST_CASE("other settings part, from the first tick in which they matter") {
   CHECK(shown.first->tick_a == 1);
   CHECK(shown.first->what == "box");
   // Two falls, apart by (g - 1) t^2 / 2 but for the scheme's first-order term.
-  const double t = shown.now.time, g = -a->settings().gravity.y();
+  const double t = shown.now.time, g = -a->settings().gravity.now().y();
   const double expected = 0.5 * (g - 1) * t * t;
   CHECK(shown.now.distance == doctest::Approx(expected).epsilon(0.05));
   CHECK(shown.worst.distance == shown.now.distance);

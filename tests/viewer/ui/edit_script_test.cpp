@@ -117,7 +117,7 @@ TEST_CASE("a pull, a shot and a changed setting are one undo step each") {
   rig.play("wait 3");
   rig.play("key Ctrl+Z\nwait 2");
   CHECK(says(rig, "Taken back: Change gravity"));
-  CHECK(rig.app->settings().gravity.y() < -9);
+  CHECK(rig.app->settings().gravity.now().y() < -9);
   CHECK(has(rig, "shot"));
   rig.play("key Ctrl+Z\nwait 2");
   CHECK_FALSE(has(rig, "shot"));

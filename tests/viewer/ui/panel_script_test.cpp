@@ -127,7 +127,7 @@ TEST_CASE("a setting that the world refuses is said and not shown") {
   right.gravity = Vec3(0, -1.6, 0);
   rig.app->ask(ChangeSettings{right});
   rig.play("wait 3");
-  CHECK(rig.app->settings().gravity == right.gravity);
+  CHECK(rig.app->settings().gravity.now() == right.gravity.now());
 }
 
 TEST_CASE("what is said of an entry of a panel stands beside the panel, and in the picture") {
@@ -160,10 +160,10 @@ TEST_CASE("a click on a number begins to type: what follows is no command") {
   rig.play("key Space\nwait 3\nclick settings.gravity.y\nwait 3\nkey 1\nwait 2");
   CHECK_FALSE(rig.app->ui_state().overlays.contacts);
   rig.play("text -3\nkey Enter\nwait 3");
-  CHECK(rig.app->settings().gravity.y() == -3);
+  CHECK(rig.app->settings().gravity.now().y() == -3);
   // Pulled it changes as before.
   rig.play("drag settings.gravity.y 40 0\nwait 3");
-  CHECK(rig.app->settings().gravity.y() > -3);
+  CHECK(rig.app->settings().gravity.now().y() > -3);
 }
 
 TEST_CASE("what is said of a button of the bar stands under the bar, and lies over no other") {
@@ -192,17 +192,17 @@ TEST_CASE("a number that Esc gives up leaves nothing to be taken back") {
   };
   rig.play("key Space\nwait 3");
   type("-3", "Enter");
-  REQUIRE(rig.app->settings().gravity.y() == -3);
+  REQUIRE(rig.app->settings().gravity.now().y() == -3);
   type("-7", "Esc");
-  REQUIRE(rig.app->settings().gravity.y() == -3);
+  REQUIRE(rig.app->settings().gravity.now().y() == -3);
   rig.play("key Ctrl+Z\nwait 3");
-  CHECK(rig.app->settings().gravity.y() == doctest::Approx(-9.81));
+  CHECK(rig.app->settings().gravity.now().y() == doctest::Approx(-9.81));
   // What is typed after that is an undo step of its own.
   type("-5", "Esc");
   type("-4", "Enter");
-  CHECK(rig.app->settings().gravity.y() == -4);
+  CHECK(rig.app->settings().gravity.now().y() == -4);
   rig.play("key Ctrl+Z\nwait 3");
-  CHECK(rig.app->settings().gravity.y() == doctest::Approx(-9.81));
+  CHECK(rig.app->settings().gravity.now().y() == doctest::Approx(-9.81));
   check_no_faults(*device);
 }
 

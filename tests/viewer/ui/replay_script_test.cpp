@@ -128,7 +128,7 @@ TEST_CASE("the settings that are shown follow a replay, and R begins it again") 
   const uint64_t hash = rig.hash(), last = rig.tick();
   rig.play("key Ctrl+Shift+F9\nwait 3");
   rig.open(rig.saved("tumble-small-replay-000.tumble"));
-  const auto shown = [&] { return rig.app->settings().gravity.y(); };
+  const auto shown = [&] { return rig.app->settings().gravity.now().y(); };
   const double of_scene = shown();
   CHECK(of_scene < -9);
   const auto to_the_end = [&] {

@@ -61,6 +61,20 @@ class WrittenSettings {
     return named(std::move(path), p.name, fmt::format("[{},{},{}]", v.x(), v.y(), v.z()),
                  fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()), p.unit);
   }
+  static std::string written(const Varying& number) {
+    if (!number.course) return fmt::format("{}", number.value);
+    if (!number.course->text().empty()) return fmt::format("\"={}\"", number.course->text());
+    std::string out;
+    for (const auto& [t, value] : number.course->points())
+      out += fmt::format("{}[{},{}]", out.empty() ? "" : ",", t, value);
+    return "[" + out + "]";
+  }
+  static WrittenValue written(std::string path, const VaryingVec3& v, const Parameter& p) {
+    if (!v.varies()) return written(std::move(path), v.now(), p);
+    const std::string x = written(v.of[0]), y = written(v.of[1]), z = written(v.of[2]);
+    return named(std::move(path), p.name, fmt::format("[{},{},{}]", x, y, z),
+                 fmt::format("{} {} {}", x, y, z), p.unit);
+  }
   static WrittenValue written(std::string path, bool on, const Parameter& p) {
     return named(std::move(path), p.name, on ? "true" : "false", on ? "on" : "off");
   }

@@ -41,7 +41,7 @@ Json points_json(Application& app, double units) {
 
 Json settings_json(const WorldSettings& s) {
   return {{"tick_hz", double(s.tick.num) / double(s.tick.den)},
-          {"gravity", vector_json(s.gravity)},
+          {"gravity", vector_json(s.gravity.now())},
           {"stepper", s.stepper},
           {"broad_phase", s.broad_phase},
           {"hierarchy", s.hierarchy},
