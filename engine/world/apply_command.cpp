@@ -3,6 +3,8 @@
 #include "engine/world/emission.hpp"
 #include "engine/world/state.hpp"
 
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -374,6 +376,10 @@ struct Apply {
     if (Status status = choose_algorithms(s, c.settings); !status) return status;
     WorldSettings wanted = c.settings;
     wanted.gravity.go_to(s.time());
+    if (!wanted.gravity.now().allFinite())
+      return Error{ErrorCode::invalid_argument,
+                   fmt::format("gravity has no finite value at {} s", s.time()), "settings.gravity",
+                   "give an expression that has one at every time"};
     if (disturbs_rest(s.settings, wanted)) {
       wake_all(s.bodies.bodies);
       for (ParticleSystem& p : s.particles) p.wake_grains();

@@ -295,8 +295,10 @@ Status follow_courses(WorldState& s) {
     if (differs_at(def, s.time_after())) rouse_pulled(s, def);
     go_to(def, 0.5 * (s.time() + s.time_after()));
   }
-  if (s.settings.gravity.differs_at(s.time_after())) rouse_all(s);
-  s.settings.gravity.go_to(0.5 * (s.time() + s.time_after()));
+  const double middle = 0.5 * (s.time() + s.time_after());
+  VaryingVec3& gravity = s.settings.gravity;
+  if (gravity.differs_at(middle) || gravity.differs_at(s.time_after())) rouse_all(s);
+  gravity.go_to(middle);
   return {};
 }
 

@@ -10,15 +10,15 @@ namespace tumble {
 namespace {
 
 /// Energy supplied from outside according to the ledger: by edits, the user, emitters (less what
-/// was removed), moving bodies, motors, gravity that follows a course, and forces other than
-/// springs. All other lines can only dissipate energy or convert it.
+/// was removed), moving bodies, motors, gravity that follows or followed a course (constant gravity
+/// has a potential, and its line is balanced), and forces other than springs. All other lines can
+/// only dissipate energy or convert it.
 double energy_given(const WorldState& s) {
   double sum = 0;
   for (const LedgerLine line :
        {LedgerLine::edits, LedgerLine::user, LedgerLine::emission, LedgerLine::removal,
-        LedgerLine::kinematic, LedgerLine::motors, LedgerLine::past_forces})
+        LedgerLine::kinematic, LedgerLine::motors, LedgerLine::past_forces, LedgerLine::gravity})
     sum += s.ledger.line(line).total().balance;
-  if (s.settings.gravity.varies()) sum += s.ledger.line(LedgerLine::gravity).total().balance;
   for (uint32_t i = 0; i < s.ledger.forces().size(); ++i)
     if (i < s.forces.size() && s.forces[i] &&
         (!is_spring(*s.forces[i]) || follows_courses(*s.forces[i])))

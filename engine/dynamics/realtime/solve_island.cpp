@@ -56,9 +56,12 @@ void end_substep(const SolverIsland& island, double hs, bool hit, bool bounced) 
   if (hit) recall_contacts(island);
 }
 
-/// To be called before contacts are solved in either pass: whether one begins to press may be known
-/// before the bodies move, or after it, when the next sub-step would close it. `hit` is the speed
-/// of a hit in this sub-step so far, 0 if there was none.
+/// Whether a contact begins to press may be known before the bodies move, or after it, when the
+/// next sub-step would close it. To be called at the beginning of a sub-step, before motors and
+/// springs of joints act: what they press together steadily is no hit, and would be one again in
+/// each sub-step, as a hit leaves no warm start; and before contacts are solved in the relaxing
+/// pass, in which a contact that is pressed together already presses. `hit` is the speed of a hit
+/// in this sub-step so far, 0 if there was none.
 void look_for_hit(const SolverIsland& island, double hs, double& hit) {
   const size_t joints = island.joints.size();
   if (hit > 0 || joints == 0 || joints > tolerances::most_joints_of_hit) return;
@@ -125,12 +128,12 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     hit = 0;
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
+    look_for_hit(island, hs, hit);
     warm_start(island);
     if (!island.springs.empty()) start_springs(c, island, hs, i == 0);
     warm_start_joints(island, hs, JointPass::moving);
     if (island.springs.empty()) {
       move_onto_joints(island, hs);
-      look_for_hit(island, hs, hit);
       solve_rows(island, hs, push_out, true);
     } else {
       solve_springs(island, hs, push_out);

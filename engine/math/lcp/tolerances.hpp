@@ -33,7 +33,8 @@ inline constexpr int most_newton_halvings = 12;
 inline constexpr double newton_descent = 1e-3;
 /// Change of an unknown in a sweep of projected Gauss-Seidel that has diverged.
 inline constexpr double diverged_sweep = 1e100;
-/// Weight of a proximal term, scaled: far above rounding, far below the diagonal.
+/// Weight of a proximal term, which stands on the diagonal of Newton's linear systems, scaled: far
+/// above rounding, far below the rest of the diagonal.
 inline constexpr double usual_weight = 1e-7;
 /// Weights tried after sweeps if the usual one fails: two that allow smaller steps, and one with
 /// hardly any effect.

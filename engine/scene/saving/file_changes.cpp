@@ -50,7 +50,9 @@ void FileChanges::merge(const Path& path, const Json& before, const Json& after)
         merge(bracketed ? at_index(own, i) : own, was[i], item.value()[i]);
     else if (bracketed && list_of_numbers(item.value()) &&
              size_in_file(own) == item.value().size()) {
+      const bool known = was.is_array() && was.size() == item.value().size();
       for (size_t i = 0; i < item.value().size(); ++i) {
+        if (known && was[i] == item.value()[i]) continue;
         const Path number = at_index(own, i);
         if (Json::parse(*edit.value(number), nullptr, false) != item.value()[i])
           set(number, item.value()[i]);  // the others stay as they are written

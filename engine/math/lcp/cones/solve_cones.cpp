@@ -159,7 +159,7 @@ void ConeStages::attempt(const ConeStage& stage) {
   proved_ = report.status == LcpStatus::infeasible;
   if (proved_) ray_ = now->ray;
   if (first || better) best = std::move(*now);
-  if (!best.report.solved() && !stage.sliding) judge_again(task_, best);
+  if (!best.report.solved() && !stage.sliding && !proved_) judge_again(task_, best);
 }
 
 void ConeStages::make_least() {
