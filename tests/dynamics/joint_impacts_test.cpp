@@ -396,9 +396,10 @@ TEST_CASE(
       const double held = w.bodies[ball].pose.x.y();
       for (int tick = 0; tick < 3 * hz; ++tick) w.step();
       CHECK(held > -1e-3);
-      CHECK(std::fabs(w.bodies[ball].pose.x.y() - held) < 1e-4);
+      // Without friction in the moving pass it would slide by g h in every sub-step, 0.1 m in all.
+      CHECK(std::fabs(w.bodies[ball].pose.x.y() - held) < 1e-3);
       REQUIRE(w.contacts.size() == 2);
-      for (const Contact& contact : w.contacts) {
+      for (const Contact& contact : w.contacts.contacts()) {
         double force = 0;
         for (const ContactPoint& p : contact.used()) force += p.normal_force;
         CHECK(force == doctest::Approx(push).epsilon(0.01));

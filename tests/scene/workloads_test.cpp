@@ -189,7 +189,7 @@ TEST_CASE("nothing of a workload sleeps, and its surfaces are those of the defin
     }
   }
   CHECK(WorldSettings{}.tick == TickRate{60, 1});
-  CHECK(WorldSettings{}.gravity == Vec3(0, -9.81, 0));
+  CHECK(WorldSettings{}.gravity.now() == Vec3(0, -9.81, 0));
 }
 
 TEST_CASE("small workloads run, measured steps are counted, threads change no bit") {

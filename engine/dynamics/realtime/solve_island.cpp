@@ -3,6 +3,7 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/blows.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
+#include "engine/dynamics/realtime/joint_lines.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
 #include <algorithm>
@@ -56,18 +57,22 @@ void end_substep(const SolverIsland& island, double hs, bool hit, bool bounced) 
   if (hit) recall_contacts(island);
 }
 
-/// Whether a contact begins to press may be known before the bodies move, or after it, when the
-/// next sub-step would close it. To be called at the beginning of a sub-step, before motors and
-/// springs of joints act: what they press together steadily is no hit, and would be one again in
-/// each sub-step, as a hit leaves no warm start; and before contacts are solved in the relaxing
-/// pass, in which a contact that is pressed together already presses. `hit` is the speed of a hit
-/// in this sub-step so far, 0 if there was none.
-void look_for_hit(const SolverIsland& island, double hs, double& hit) {
+/// Whether motors or springs of joints may press bodies together.
+bool has_presses(const SolverIsland& island) {
+  return std::ranges::any_of(island.joints, [&island](const JointBlock& joint) {
+    return std::ranges::any_of(drives_of(island, joint), [](const DriveRow& d) {
+      return d.drive->motor.kind != MotorKind::none || d.drive->spring.stiffness > 0;
+    });
+  });
+}
+
+/// The speed of a hit in this sub-step, 0 for none.
+double look_for_hit(const SolverIsland& island, double hs) {
   const size_t joints = island.joints.size();
-  if (hit > 0 || joints == 0 || joints > tolerances::most_joints_of_hit) return;
-  if (!island.springs.empty()) return;
-  hit = hit_speed(island, hs);
-  if (!(hit > 0)) return;
+  if (joints == 0 || joints > tolerances::most_joints_of_hit || !island.springs.empty()) return 0;
+  return hit_speed(island, hs);
+}
+void remember_before_hit(const SolverIsland& island) {
   // Near a limit they are those before that took part.
   if (!nears_limit(island)) remember_impulses(island);
   remember_contacts(island);
@@ -113,7 +118,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   prepare_rows(c, island, hs);
   prepare_springs(c, island);
   prepare_joints(c, island, hs);
-  const bool measured = bounces(island);
+  const bool measured = bounces(island), presses = has_presses(island);
   double taken = 0;
   const auto note_pass = [&](double share) {
     note_speeds(island, share);
@@ -125,15 +130,19 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   double hit = 0;
   for (int i = 0; i < n && !stop_requested(); ++i) {
     if (i > 0) end_substep(island, hs, hit > 0, false);
-    hit = 0;
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
-    look_for_hit(island, hs, hit);
+    // What motors and springs of joints press together steadily is no hit, and would be one again
+    // in each sub-step, as a hit leaves no warm start: speeds count from before these act. What
+    // armatures do not follow at once is a part of the hit.
+    hit = presses ? look_for_hit(island, hs) : 0;
     warm_start(island);
     if (!island.springs.empty()) start_springs(c, island, hs, i == 0);
     warm_start_joints(island, hs, JointPass::moving);
     if (island.springs.empty()) {
       move_onto_joints(island, hs);
+      if (!presses) hit = look_for_hit(island, hs);
+      if (hit > 0) remember_before_hit(island);
       solve_rows(island, hs, push_out, true);
     } else {
       solve_springs(island, hs, push_out);
@@ -148,7 +157,8 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (measured) note_pass(1);
     warm_start_joints(island, hs, JointPass::relaxing);
     relax_joints(island, hs);
-    look_for_hit(island, hs, hit);
+    // The next sub-step would close a contact that does not press yet.
+    if (hit == 0 && (hit = look_for_hit(island, hs)) > 0) remember_before_hit(island);
     if (!island.joints.empty()) solve_normals(island, hs, push_out);
     solve_rows(island, hs, push_out, false);
     if (island.joints.empty()) solve_friction_again(island);
