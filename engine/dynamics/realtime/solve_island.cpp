@@ -3,7 +3,6 @@
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/blows.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
-#include "engine/dynamics/realtime/joint_lines.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
 #include <algorithm>
@@ -15,9 +14,8 @@ namespace {
 /// the impact has spread through the mechanism, and limits its energy to `taken`. One sweep would
 /// leave the points of one face at different speeds, and a box that falls flat would turn; without
 /// the limit a body that is caught between two walls, each of which is to be left, would gain speed
-/// with each sweep. Returns whether anything bounced. `struck`: in a sub-step with an impact.
-bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken,
-            bool struck) {
+/// with each sweep. Returns whether anything bounced.
+bool bounce(const SolverContext& c, const SolverIsland& island, double hs, double taken) {
   note_speeds(island, 1);
   note_joint_speeds(island);
   remember_velocities(island);
@@ -26,7 +24,7 @@ bool bounce(const SolverContext& c, const SolverIsland& island, double hs, doubl
     const double change = apply_restitution(c, island);
     if (turn == 0) {
       if (change == 0) return false;
-      if (!struck) remember_impulses(island);
+      if (!limit_bounces(island)) remember_impulses(island);
     }
     sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
     if (std::max(change, blow_change(island)) < tolerances::bounce_error) break;
@@ -50,42 +48,10 @@ Softness softness_of(const SolverIsland& island, double hs) {
   return out;
 }
 
-/// To be called after the relaxing pass. `bounced`: contacts did.
-void end_substep(const SolverIsland& island, double hs, bool hit, bool bounced) {
+/// To be called after the relaxing pass.
+void end_substep(const SolverIsland& island, double hs, bool bounced) {
   sum_joints(island, hs, JointPass::relaxing);
-  if (hit || bounced || limit_bounces(island)) recall_impulses(island);
-  if (hit) recall_contacts(island);
-}
-
-/// Whether motors or springs of joints may press bodies together.
-bool has_presses(const SolverIsland& island) {
-  return std::ranges::any_of(island.joints, [&island](const JointBlock& joint) {
-    return std::ranges::any_of(drives_of(island, joint), [](const DriveRow& d) {
-      return d.drive->motor.kind != MotorKind::none || d.drive->spring.stiffness > 0;
-    });
-  });
-}
-
-/// The speed of a hit in this sub-step, 0 for none.
-double look_for_hit(const SolverIsland& island, double hs) {
-  const size_t joints = island.joints.size();
-  if (joints == 0 || joints > tolerances::most_joints_of_hit || !island.springs.empty()) return 0;
-  return hit_speed(island, hs);
-}
-void remember_before_hit(const SolverIsland& island) {
-  // Near a limit they are those before that took part.
-  if (!nears_limit(island)) remember_impulses(island);
-  remember_contacts(island);
-}
-
-/// Solves joints and contacts in turn until a hit at this speed has spread through the mechanism.
-void spread_hit(const SolverIsland& island, double hs, double push_out, double speed) {
-  speed_change(island);
-  for (int turn = 1; turn < tolerances::most_bounce_turns; ++turn) {
-    sweep_joints(island, hs, JointPass::relaxing, {0, island.joint_sweeps});
-    solve_rows(island, hs, push_out, false);
-    if (speed_change(island) < tolerances::bounce_error * speed) return;
-  }
+  if (bounced || limit_bounces(island)) recall_impulses(island);
 }
 
 /// Solves springs, joints and contacts in turn, until springs change little.
@@ -118,7 +84,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   prepare_rows(c, island, hs);
   prepare_springs(c, island);
   prepare_joints(c, island, hs);
-  const bool measured = bounces(island), presses = has_presses(island);
+  const bool measured = bounces(island);
   double taken = 0;
   const auto note_pass = [&](double share) {
     note_speeds(island, share);
@@ -127,22 +93,15 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   const auto add_taken = [&](JointPass pass) {
     taken += taken_by_contacts(island) + taken_by_joints(island, pass);
   };
-  double hit = 0;
   for (int i = 0; i < n && !stop_requested(); ++i) {
-    if (i > 0) end_substep(island, hs, hit > 0, false);
+    if (i > 0) end_substep(island, hs, false);
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
-    // What motors and springs of joints press together steadily is no hit, and would be one again
-    // in each sub-step, as a hit leaves no warm start: speeds count from before these act. What
-    // armatures do not follow at once is a part of the hit.
-    hit = presses ? look_for_hit(island, hs) : 0;
     warm_start(island);
     if (!island.springs.empty()) start_springs(c, island, hs, i == 0);
     warm_start_joints(island, hs, JointPass::moving);
     if (island.springs.empty()) {
       move_onto_joints(island, hs);
-      if (!presses) hit = look_for_hit(island, hs);
-      if (hit > 0) remember_before_hit(island);
       solve_rows(island, hs, push_out, true);
     } else {
       solve_springs(island, hs, push_out);
@@ -157,18 +116,14 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (measured) note_pass(1);
     warm_start_joints(island, hs, JointPass::relaxing);
     relax_joints(island, hs);
-    // The next sub-step would close a contact that does not press yet.
-    if (hit == 0 && (hit = look_for_hit(island, hs)) > 0) remember_before_hit(island);
     if (!island.joints.empty()) solve_normals(island, hs, push_out);
     solve_rows(island, hs, push_out, false);
     if (island.joints.empty()) solve_friction_again(island);
-    if (hit > 0) spread_hit(island, hs, push_out, hit);
     if (i + 1 == n) follow_with_armatures(island, hs);
     if (measured) add_taken(JointPass::relaxing);
     sum_impulses(island);
   }
-  const bool struck = hit > 0 || limit_bounces(island);
-  end_substep(island, hs, hit > 0, measured && bounce(c, island, hs, taken, struck));
+  end_substep(island, hs, measured && bounce(c, island, hs, taken));
   store_springs(c, island);
   const double contacts = store_rows(c, island, hs);
   return {contacts, store_joints(c, island, hs)};

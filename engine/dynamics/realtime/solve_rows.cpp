@@ -81,21 +81,10 @@ void solve_all_friction(const SolverIsland& island, ContactRow& row, Pair& pair)
   }
 }
 
-/// What the turning of round surfaces adds to the gap: it does not change as they turn, since only
-/// the part of the arms inside the rounding turns.
-double rolled_gap(const ContactRow& row, const Pair& pair) {
-  return row.rounding_a * row.n.dot(pair.a.turn * row.n) +
-         row.rounding_b * row.n.dot(pair.b.turn * row.n);
-}
-
-double gap_of(const ContactRow& row, const PointRow& p, const Pair& pair, double rolled) {
-  const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
-  return p.gap + rolled + row.n.dot(moved);
-}
-
 void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
                   double push_out_speed, bool with_bias) {
-  const double gap = gap_of(row, p, pair, rolled);
+  const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
+  const double gap = p.gap + rolled + row.n.dot(moved);
   double bias = 0, mass_scale = 1, impulse_scale = 0;
   if (gap > 0) {
     bias = gap / hs;
@@ -132,7 +121,10 @@ namespace {
 
 void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,
                        double push_out_speed, bool bias) {
-  const double rolled = rolled_gap(row, pair);
+  // The gap of round surfaces does not change as they turn: only the part of the arms inside the
+  // rounding turns.
+  const double rolled = row.rounding_a * row.n.dot(pair.a.turn * row.n) +
+                        row.rounding_b * row.n.dot(pair.b.turn * row.n);
   for (uint32_t i = row.first; i < row.first + row.count; ++i)
     solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
 }
@@ -232,46 +224,6 @@ double apply_restitution(const SolverContext& c, const SolverIsland& island) {
       pair.write(a, b);
       most = std::max(most, std::fabs(push) / (p.normal_mass * p.bounce));
     }
-  }
-  return most;
-}
-
-double hit_speed(const SolverIsland& island, double hs) {
-  double most = 0;
-  for (const ContactRow& row : island.rows) {
-    const Pair pair(island.bodies[row.a], island.bodies[row.b]);
-    const double rolled = rolled_gap(row, pair);
-    const double by_forces = std::fabs(
-        row.n.dot(island.motions[row.b].acceleration - island.motions[row.a].acceleration));
-    const double rest = tolerances::limit_rest_speed + 2 * hs * by_forces;
-    for (const PointRow& p : island.points.subspan(row.first, row.count)) {
-      const double approach = -row.n.dot(pair.slip(p));
-      if (p.normal > 0 || !(approach > rest)) continue;
-      if (hs * approach > gap_of(row, p, pair, rolled)) most = std::max(most, approach);
-    }
-  }
-  return most;
-}
-
-void remember_contacts(const SolverIsland& island) {
-  for (ContactRow& row : island.rows) row.turning_before_hit = row.turning.impulse;
-  for (PointRow& p : island.points) p.before_hit = {p.normal, p.tangent1, p.tangent2};
-}
-
-void recall_contacts(const SolverIsland& island) {
-  for (ContactRow& row : island.rows) row.turning.impulse = row.turning_before_hit;
-  for (PointRow& p : island.points) {
-    p.normal = p.before_hit.normal;
-    p.tangent1 = p.before_hit.tangent1;
-    p.tangent2 = p.before_hit.tangent2;
-  }
-}
-
-double speed_change(const SolverIsland& island) {
-  double most = 0;
-  for (PointRow& p : island.points) {
-    most = std::max(most, std::fabs(p.normal - p.noted) / p.normal_mass);
-    p.noted = p.normal;
   }
   return most;
 }

@@ -84,7 +84,6 @@ struct ContactRow {
   Softness soft;
   bool resists_turning = false;  ///< whether `turning` acts
   TurningRow turning;
-  Vec3 turning_before_hit;  ///< its impulse, see remember_contacts()
 };
 
 /// One point of a contact. Impulses are those of one sub-step.
@@ -103,11 +102,6 @@ struct PointRow {
   // For points that bounce in islands with joints.
   double speed_before = 0;   ///< normal speed before a pass, or before the impact [m/s]
   double normal_before = 0;  ///< normal impulse that does not belong to the pass [N s]
-  // In islands with joints, for hits.
-  double noted = 0;  ///< normal impulse at the last speed_change() [N s]
-  struct {
-    double normal = 0, tangent1 = 0, tangent2 = 0;
-  } before_hit;  ///< impulses, see remember_contacts()
 };
 
 /// The part of the solver's memory that belongs to one island.
@@ -179,18 +173,6 @@ void sum_impulses(const SolverIsland& island);
 /// and joints may remove a part of it, so that it is repeated in turn with these; only then are
 /// impulses of restitution reduced again.
 double apply_restitution(const SolverContext& context, const SolverIsland& island);
-
-// Hits: contacts that begin to press, in islands with joints. Their impulses would be repeated by
-// the warm start of the next sub-step, in which one sweep would take back only the part that the
-// bodies bear without the mechanism behind them: the next sub-step starts from the impulses before.
-
-/// The greatest speed at which a contact that does not press yet closes within a sub-step, if that
-/// is more than what forces bring about in a few sub-steps, else 0 [m/s].
-double hit_speed(const SolverIsland& island, double hs);
-void remember_contacts(const SolverIsland& island);
-void recall_contacts(const SolverIsland& island);
-/// The greatest change of speed by a normal impulse since the last call [m/s].
-double speed_change(const SolverIsland& island);
 
 /// Writes the impulses back to the contacts; returns the greatest approach speed at a pressed
 /// point.

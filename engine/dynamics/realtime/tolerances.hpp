@@ -68,9 +68,8 @@ inline constexpr double max_joint_correction = 10;
 /// Sweeps over the coordinates of one joint each time that it is solved [-]: they are nearly
 /// orthogonal, so that three sweeps leave less than a hundredth.
 inline constexpr int drive_sweeps = 3;
-/// A coordinate that reaches its limit more slowly than this does not bounce, and a contact that
-/// closes more slowly is no hit on a mechanism [m/s], [rad/s]: a hundredth of what contacts need to
-/// bounce, as only the joint itself is involved. Twice the speed that is
+/// A coordinate that reaches its limit more slowly than this does not bounce [m/s], [rad/s]: a
+/// hundredth of what contacts need, as only the joint itself is involved. Twice the speed that is
 /// gained in a sub-step is added to it, so that series of bounces end.
 inline constexpr double limit_rest_speed = 0.01;
 /// Accuracy of bounces, relative to their speed [-]: a thousandth, as for the other rows of a
@@ -79,10 +78,6 @@ inline constexpr double bounce_error = 1e-3;
 /// Most rounds of bounces and joints at the end of a tick in which something bounced [-]: 2^-32 of
 /// the error is left if each round halves it.
 inline constexpr int most_bounce_turns = 32;
-/// Most joints of an island in which hits are spread [-]: it may take most_bounce_turns rounds in a
-/// sub-step. In a tracked vehicle of 60 links some contact is hit in nearly every sub-step: it took
-/// seven times as long, and its warm starts would seldom be renewed.
-inline constexpr size_t most_joints_of_hit = 8;
 /// Strength of a damper over half a sub-step below which its implicit share is given by the first
 /// term of its series [-]: the next term is a ten thousandth of it.
 inline constexpr double weak_damper = 1e-4;
