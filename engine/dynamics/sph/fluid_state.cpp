@@ -145,6 +145,7 @@ void find_surroundings(FluidState& s) {
       s.diagonal.resize(n);
   if (s.corrects()) s.moment.resize(n), s.square_matrix.resize(n);
   find_walls(s);
+  if (stop_requested()) return;  // touches may be incomplete
   find_fluid_pairs(s);
   s.each([&](size_t p) {
     for (const WallTouch& t : s.touches_of(p)) {

@@ -52,10 +52,12 @@ void FileChanges::merge(const Path& path, const Json& before, const Json& after)
              size_in_file(own) == item.value().size()) {
       const bool known = was.is_array() && was.size() == item.value().size();
       for (size_t i = 0; i < item.value().size(); ++i) {
-        if (known && was[i] == item.value()[i]) continue;
         const Path number = at_index(own, i);
-        if (Json::parse(*edit.value(number), nullptr, false) != item.value()[i])
-          set(number, item.value()[i]);  // the others stay as they are written
+        const Json said = Json::parse(*edit.value(number), nullptr, false);
+        // An expression of what did not change stays; a number may be of another moment than `was`,
+        // or an angle that is written in another way.
+        const bool stays = known && was[i] == item.value()[i] && !said.is_number();
+        if (!stays && said != item.value()[i]) set(number, item.value()[i]);
       }
     } else
       set(own, item.value());
