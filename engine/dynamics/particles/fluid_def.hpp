@@ -24,9 +24,9 @@ enum class FluidKernelKind : uint8_t { cubic_spline, wendland };
 struct FluidDef {
   FluidSolverKind solver = FluidSolverKind::dfsph;
   FluidKernelKind kernel = FluidKernelKind::cubic_spline;
+  double density = 1000;  ///< at rest [kg/m3]
   /// Support radius of the kernel [spacings: cube roots of particle volumes]
-  double density = 1000;
-  double smoothing = 2;        ///< dynamic viscosity, solved implicitly [Pa s]
+  double smoothing = 2;
   double viscosity = 0.001;    ///< dynamic, solved implicitly [Pa s]
   double xsph = 0.05;          ///< share of the difference to the mean velocity about it that a
                                ///< particle loses in a sub-step (Schechter and Bridson 2012) [-]

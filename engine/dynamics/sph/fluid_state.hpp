@@ -111,7 +111,7 @@ struct FluidState {
   std::vector<Mat3> square_matrix;         ///< of the same [1/(kg m2)]
   std::vector<Mat3> correction;            ///< [-]
   std::vector<double> corrected_diagonal;  ///< [m3/(kg m2)]
-  std::vector<double> slopes;              ///< sum of V f: see FluidList [1/m2]
+  std::vector<double> slopes;              ///< sum of V f: see FluidPairSums [1/m2]
   Vec3 origin = Vec3::Zero();              ///< near the fluid, for what is linear in places [m]
   std::vector<size_t> first_touch;         ///< by place, and one more
   std::vector<WallTouch> touches;

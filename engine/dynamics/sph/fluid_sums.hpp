@@ -156,9 +156,10 @@ inline double of_mean(double own, double other) {
 /// By what the terms of a sum over pairs are multiplied.
 enum class FluidFactor : uint8_t { slope, weight };
 
-/// The sum of f y or of W y over the others, and with `q` of f of_mean y. All sums of a fluid are
+/// The sum of f y or of W y over the others, and with `q` of f of_mean y. Most sums of a fluid are
 /// such sums of four numbers of the others (fluid_state), so that pairs need not keep their
-/// directions. A particle is itself among those of its list, where W is not zero.
+/// directions; those of corrected pressures find them anew. A particle is itself among those of its
+/// list, where W is not zero.
 void sum_pairs(const FluidPairs& pairs, FluidFactor factor, size_t first, size_t end,
                const FluidVector* y, const double* q, FluidVector* sums);
 

@@ -1,7 +1,7 @@
 // Pressures p >= 0 of the particles of an incompressible fluid. With D the operator that makes
-// rates of shares of velocities (FluidState::rate), V D^T p are the forces of pressures, so that D
-// M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are the
-// nearest to those before that are allowed, and have no more energy.
+// rates of shares of velocities (PressureForces::find_rates), V D^T p are the forces of pressures,
+// so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are
+// the nearest to those before that are allowed, and have no more energy.
 //
 // D is the divergence with the slopes of kernels corrected so that it is exact for velocities that
 // are linear in places (Bonet and Lok, "Variational and momentum preservation aspects of smooth

@@ -16,7 +16,7 @@ namespace tumble {
 /// Points are sorted by the cells of a grid along a space-filling curve, so that neighbours are
 /// near in memory; a point's index in that order is its *place*. The points are followed by ghosts,
 /// which are copies of points outside of a periodic box, and by one place far from everything,
-/// which pads lists to a multiple of eight.
+/// which pads lists to a multiple of eight, those of groups to one of four.
 ///
 /// With a skin the lists reach farther than asked for, and stay valid until a point has moved by
 /// half of the skin (Verlet 1967).
