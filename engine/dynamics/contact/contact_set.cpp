@@ -48,13 +48,28 @@ bool pair_less(const CachedPair& a, const CachedPair& b) {
 void ContactKnowledge::append(const ContactKnowledge& other) {
   contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());
   seen.insert(seen.end(), other.seen.begin(), other.seen.end());
-  pieces.insert(pieces.end(), other.pieces.begin(), other.pieces.end());
+  near.insert(near.end(), other.near.begin(), other.near.end());
 }
 
 void ContactKnowledge::sort() {
   std::sort(contacts.begin(), contacts.end(), key_less);
   std::sort(seen.begin(), seen.end(), pair_less);
-  std::sort(pieces.begin(), pieces.end());
+  std::ranges::sort(near, {}, &CachedNear::pair);
+}
+
+void KnownShapes::sum_up() {
+  margin_apart = margin_touching = std::numeric_limits<double>::infinity();
+  touching = 0;
+  for (const CachedShapes& s : shapes) {
+    double& least = s.touch ? margin_touching : margin_apart;
+    least = std::min(least, s.margin);
+    touching += s.touch;
+  }
+}
+
+void add_memory(std::span<const CachedNear> near, MemoryUse& use) {
+  for (const CachedNear& of_pair : near)
+    if (of_pair.near) use.contacts += sizeof(KnownShapes) + heap_bytes(of_pair.near->shapes);
 }
 
 namespace {
@@ -68,7 +83,8 @@ void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledg
   out.clear();
   std::ranges::merge(a.contacts, b.contacts, std::back_inserter(out.contacts), key_less);
   std::ranges::merge(a.seen, b.seen, std::back_inserter(out.seen), pair_less);
-  std::ranges::merge(a.pieces, b.pieces, std::back_inserter(out.pieces), std::less());
+  std::ranges::merge(a.near, b.near, std::back_inserter(out.near), {}, &CachedNear::pair,
+                     &CachedNear::pair);
 }
 
 /// Pairs per task: few, so that expensive pairs are shared among threads; but more where there are
@@ -89,10 +105,10 @@ class HistoryCursor {
   HistoryCursor(const ContactKnowledge& known, const ContactKey& first)
       : contacts_(known.contacts),
         seen_(known.seen),
-        pieces_(known.pieces),
+        nears_(known.near),
         contact_(std::ranges::lower_bound(contacts_, first, {}, &Contact::key)),
         look_(std::ranges::lower_bound(seen_, first, {}, &CachedPair::pair)),
-        piece_(std::ranges::lower_bound(pieces_, first, {}, &CachedShapes::pair)) {}
+        near_(std::ranges::lower_bound(nears_, first, {}, &CachedNear::pair)) {}
 
   PairHistory at(const ContactKey& pair) {
     while (contact_ != contacts_.end() && contact_->key < pair) ++contact_;
@@ -102,21 +118,19 @@ class HistoryCursor {
     const bool known = look_ != seen_.end() && same_pair(look_->pair, pair);
     return {{begin, contact_}, known ? &*look_ : nullptr};
   }
-  /// What is known of the pairs of shapes of a pair; to be called for pairs in ascending order.
-  std::span<const CachedShapes> pieces_of(const ContactKey& pair) {
-    while (piece_ != pieces_.end() && piece_->pair < pair) ++piece_;
-    const auto begin = piece_;
-    while (piece_ != pieces_.end() && same_pair(piece_->pair, pair)) ++piece_;
-    return {begin, piece_};
+  /// What is known of the shapes of a pair, or null; to be called for pairs in ascending order.
+  const CachedNear* near_of(const ContactKey& pair) {
+    while (near_ != nears_.end() && near_->pair < pair) ++near_;
+    return near_ != nears_.end() && same_pair(near_->pair, pair) ? &*near_ : nullptr;
   }
 
  private:
   std::span<const Contact> contacts_;
   std::span<const CachedPair> seen_;
-  std::span<const CachedShapes> pieces_;
+  std::span<const CachedNear> nears_;
   std::span<const Contact>::iterator contact_;
   std::span<const CachedPair>::iterator look_;
-  std::span<const CachedShapes>::iterator piece_;
+  std::span<const CachedNear>::iterator near_;
 };
 
 /// Whether any dynamic body is at rest (not active).
@@ -189,7 +203,7 @@ void ContactSet::assign(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen.clear();
-  now_.pieces.clear();
+  now_.near.clear();
   resting_.drop();
 }
 
@@ -198,7 +212,7 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen = before.seen;
-  now_.pieces = before.pieces;
+  now_.near = before.near;
 }
 
 ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&)>& which) {
@@ -208,7 +222,7 @@ ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&
   now_.clear();
   for (const Contact& c : before.contacts) (which(c.key) ? out : now_).contacts.push_back(c);
   for (const CachedPair& s : before.seen) (which(s.pair) ? out : now_).seen.push_back(s);
-  for (const CachedShapes& s : before.pieces) (which(s.pair) ? out : now_).pieces.push_back(s);
+  for (const CachedNear& s : before.near) (which(s.pair) ? out : now_).near.push_back(s);
   return out;
 }
 
@@ -232,7 +246,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
     Source source{pair, before.contacts};
     const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
     if (in_pieces(a, b)) {
-      before.pieces = history.pieces_of(finder.key(pair));
+      before.near = history.near_of(finder.key(pair));
       source.carried = CompoundPair(finder, a, b, before).look(out.sights);
     } else if (finder.knows(pair, before)) {
       source.look = before.seen;
@@ -259,7 +273,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   auto look = chunk.sights.seen.begin();
   const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
-  std::ranges::copy(chunk.sights.pieces, now_.pieces.begin() + std::ptrdiff_t(chunk.first_piece));
+  std::ranges::move(chunk.sights.near, now_.near.begin() + std::ptrdiff_t(chunk.first_near));
   size_t at = 0;
   for (size_t k = 0; k < chunk.sources.size(); ++k) {
     constexpr size_t ahead = tolerances::pairs_ahead;
@@ -300,8 +314,8 @@ void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody
     if (rest(c.key)) settled_.contacts.push_back(c);
   for (const CachedPair& s : old.seen)
     if (rest(s.pair)) settled_.seen.push_back(s);
-  for (const CachedShapes& s : old.pieces)
-    if (rest(s.pair)) settled_.pieces.push_back(s);
+  for (const CachedNear& s : old.near)
+    if (rest(s.pair)) settled_.near.push_back(s);
   if (!settled_.empty()) resting_.add(settled_, bodies);
 }
 
@@ -334,7 +348,7 @@ void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   std::erase_if(roused_.seen, [&](const CachedPair& s) {
     return seeks(s.pair) || std::binary_search(now_.seen.begin(), now_.seen.end(), s, pair_less);
   });
-  std::erase_if(roused_.pieces, [&](const CachedShapes& s) {
+  std::erase_if(roused_.near, [&](const CachedNear& s) {
     return !std::ranges::binary_search(roused_.seen, s.pair, {}, &CachedPair::pair);
   });
   merge(now_, roused_, both_);
@@ -408,15 +422,15 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     const size_t here = std::min(pairs.size() - begin, per_chunk);
     find_chunk(old, pairs.subspan(begin, here), finder, chunks[c]);
   });
-  size_t contacts = 0, looks = 0, pieces = 0;
+  size_t contacts = 0, looks = 0, nears = 0;
   for (Chunk& chunk : chunks) {
     chunk.first_contact = std::exchange(contacts, contacts + chunk.contacts);
     chunk.first_look = std::exchange(looks, looks + chunk.looks);
-    chunk.first_piece = std::exchange(pieces, pieces + chunk.sights.pieces.size());
+    chunk.first_near = std::exchange(nears, nears + chunk.sights.near.size());
   }
   make_room(now_.contacts, contacts);
   make_room(now_.seen, looks);
-  make_room(now_.pieces, pieces);
+  make_room(now_.near, nears);
   if (stop_requested()) {
     now_.clear();
     return {};
@@ -453,12 +467,13 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
 
 void ContactSet::add_memory(MemoryUse& use) const {
   for (const ContactKnowledge* k : {&now_, &kept_, &old_, &settled_, &roused_, &both_})
-    use.contacts += heap_bytes(k->contacts, k->seen, k->pieces);
+    use.contacts += heap_bytes(k->contacts, k->seen, k->near);
+  tumble::add_memory(now_.near, use);
   use.contacts += heap_bytes(sides_, paired_, chunks_);
   resting_.add_memory(use);
   for (const Chunk& c : chunks_)
     use.contacts +=
-        heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen, c.sights.pieces);
+        heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen, c.sights.near);
 }
 
 void ContactSet::remove_body(uint32_t body) {
@@ -471,7 +486,7 @@ void ContactSet::remove_body(uint32_t body) {
     return s.pair.body_a == body || s.pair.body_b == body;
   };
   std::erase_if(now_.seen, names);
-  std::erase_if(now_.pieces, names);
+  std::erase_if(now_.near, names);
 }
 
 }  // namespace tumble
