@@ -1,6 +1,7 @@
 #include "engine/collision/manifold_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,9 +32,10 @@ class Candidates {
       reach2 = std::max(reach2, (p.x_world - points[0].x_world).squaredNorm());
     reach_ = std::sqrt(reach2);
     if (reach_ > 0) fading_ = 1 / (near_share * reach_);
-    if (kept.empty()) return;
-    for (size_t i = 0; i < std::min(points.size(), noted); ++i)
-      kept_first_ |= uint64_t{look_up(i)} << i;
+    for (size_t i = 0; i < std::min(points.size(), noted); ++i) {
+      if (!kept.empty()) kept_first_ |= uint64_t{look_up(i)} << i;
+      weights_[i] = weigh(i);
+    }
   }
 
   /// The deepest point; one that was kept so far stays if it is nearly as deep.
@@ -61,16 +63,17 @@ class Candidates {
   }
 
   /// Weight of a point.
-  double weight(size_t i) const {
-    const double bonus = is_kept(i) ? kept_bonus : 1;
-    return fading_ == 0 ? bonus : bonus / (1 + fading_ * std::max(points_[i].gap, 0.0));
-  }
+  double weight(size_t i) const { return i < noted ? weights_[i] : weigh(i); }
 
   double reach() const { return reach_; }  ///< from the first to the farthest from it [m]
 
  private:
   static constexpr size_t noted = 64;
 
+  double weigh(size_t i) const {
+    const double bonus = is_kept(i) ? kept_bonus : 1;
+    return fading_ == 0 ? bonus : bonus / (1 + fading_ * std::max(points_[i].gap, 0.0));
+  }
   bool is_kept(size_t i) const { return i < noted ? kept_first_ >> i & 1 : look_up(i); }
   bool look_up(size_t i) const {
     bool found = false;
@@ -83,6 +86,7 @@ class Candidates {
   uint64_t kept_first_ = 0;  ///< bit i: point i is among those kept
   double reach_ = 0;
   double fading_ = 0;  ///< decrease of weight with the gap; 0 if all have equal weight [1/m]
+  std::array<double, noted> weights_;
 };
 
 }  // namespace

@@ -39,14 +39,15 @@ bool straddles(const Heights& h) {
 
 /// Whether the line from p to q passes all sides of the triangle in the same sense.
 bool passes_inside(const Vec3& p, const Vec3& q, const Placed& t) {
-  int positive = 0;
-  for (size_t k = 0; k < 3; ++k) {
-    const size_t l = (k + 1) % 3;
+  const Vec3 along = q - p;
+  const std::array<Vec3, 3> corner{t.p[0] - p, t.p[1] - p, t.p[2] - p};
+  const auto passes = [&](size_t k, size_t l) {
     const bool ascending = t.vertex[k] < t.vertex[l];
-    const Vec3 &u = t.p[ascending ? k : l], &v = t.p[ascending ? l : k];
-    positive += ((q - p).dot((u - p).cross(v - p)) > 0) == ascending;
-  }
-  return positive == 0 || positive == 3;
+    const Vec3 &u = corner[ascending ? k : l], &v = corner[ascending ? l : k];
+    return (along.dot(u.cross(v)) > 0) == ascending;
+  };
+  const bool first = passes(0, 1);
+  return passes(1, 2) == first && passes(2, 0) == first;
 }
 
 class ContourFinder {

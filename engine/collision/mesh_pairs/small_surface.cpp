@@ -15,6 +15,10 @@ double beyond(double x, double y, double z) {
   return std::max(std::min(x, std::min(y, z)), -std::max(x, std::max(y, z)));
 }
 
+uint64_t first_bits(size_t n) {
+  return n < 64 ? (uint64_t{1} << n) - 1 : ~uint64_t{0};
+}
+
 template <class T>
 std::vector<T>& memory() {
   static thread_local std::vector<T> items;
@@ -31,7 +35,7 @@ SmallSurface::SmallSurface(const PlacedSurface& small, const PlacedSurface& larg
       corners_(memory<Vec3>()),
       by_two_(memory<TwoCorners>()),
       heights_(memory<double>()),
-      masks_(memory<uint64_t>()),
+      facets_at_(memory<uint64_t>()),
       facets_(memory<Facet>()),
       is_a_(is_a),
       pairs_(pairs) {
@@ -41,7 +45,7 @@ SmallSurface::SmallSurface(const PlacedSurface& small, const PlacedSurface& larg
   corners_.resize(vertices.size());
   by_two_.resize(twos);
   heights_.resize(2 * twos);
-  masks_.clear();
+  facets_at_.clear();
   facets_.resize(small.s.mesh->triangles.size());
   for (size_t i = 0; i < corners_.size(); ++i) {
     corners_[i] = R_ * vertices[i] + x;
@@ -108,17 +112,23 @@ void SmallSurface::note_facets_left_out() {
   for (uint32_t i = 0; i < facets_.size(); ++i) (void)pairs_.apart(over_plane(i));
 }
 
+uint64_t SmallSurface::facets_with_others(uint64_t corners) const {
+  uint64_t facets = 0;
+  for (uint64_t rest = ~corners & first_bits(corners_.size()); rest != 0; rest &= rest - 1)
+    facets |= facets_at_[size_t(std::countr_zero(rest))];
+  return facets;
+}
+
 void SmallSurface::meet_facets(const Met& triangle, const Beyond& beyond) {
-  if (masks_.empty()) {
-    const auto bit = [](uint32_t corner) { return uint64_t{1} << corner; };
-    for (const Triangle& f : small_.s.mesh->triangles)
-      masks_.push_back(bit(f[0]) | bit(f[1]) | bit(f[2]));
+  if (facets_at_.empty()) {
+    facets_at_.assign(corners_.size(), 0);
+    for (size_t i = 0; i < facets_.size(); ++i)
+      for (const uint32_t corner : small_.s.mesh->triangles[i])
+        facets_at_[corner] |= uint64_t{1} << i;
   }
-  uint64_t near = 0;
-  for (size_t i = 0; i < masks_.size(); ++i) {
-    const uint64_t mask = masks_[i];
-    near |= uint64_t{(mask & ~beyond.above) != 0 && (mask & ~beyond.below) != 0} << i;
-  }
+  uint64_t near = first_bits(facets_.size());
+  if (beyond.above != 0) near &= facets_with_others(beyond.above);
+  if (beyond.below != 0) near &= facets_with_others(beyond.below);
   for (; near != 0; near &= near - 1) {
     const auto i = uint32_t(std::countr_zero(near));
     const double away = std::max(over_plane(i), distance(i, triangle));

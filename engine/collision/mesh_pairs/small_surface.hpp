@@ -80,6 +80,8 @@ class SmallSurface {
   /// Computes the heights of all corners over a plane; returns by how much all are on one side of
   /// it.
   double raise(const Vec3& normal, double offset, Beyond& beyond);
+  /// The facets with a corner that is not among these, a bit for each.
+  uint64_t facets_with_others(uint64_t corners) const;
   /// Appends the pairs of the triangle for which the heights were computed.
   void meet_facets(const Met& triangle, const Beyond& beyond);
   /// Records the distance of the facets that are beyond reach of the plane.
@@ -91,13 +93,13 @@ class SmallSurface {
   double distance(uint32_t facet, const Met& triangle);
 
   const PlacedSurface &small_, &large_;
-  Mat3 R_;                           ///< from the small surface's frame to the large one's
-  std::vector<Vec3>& corners_;       ///< of the small surface, large one's frame
-  std::vector<TwoCorners>& by_two_;  ///< in pairs, the last one twice if their number is odd
-  std::vector<double>& heights_;     ///< of the corners over the plane of the current triangle [m]
-  std::vector<uint64_t>& masks_;     ///< for each facet the bits of its corners
-  std::vector<Facet>& facets_;       ///< computed on first use
-  uint64_t asked_ = 0;               ///< a bit for each facet that has been computed
+  Mat3 R_;                            ///< from the small surface's frame to the large one's
+  std::vector<Vec3>& corners_;        ///< of the small surface, large one's frame
+  std::vector<TwoCorners>& by_two_;   ///< in pairs, the last one twice if their number is odd
+  std::vector<double>& heights_;      ///< of the corners over the plane of the current triangle [m]
+  std::vector<uint64_t>& facets_at_;  ///< for each corner the bits of the facets that meet there
+  std::vector<Facet>& facets_;        ///< computed on first use
+  uint64_t asked_ = 0;                ///< a bit for each facet that has been computed
   Aabb box_;
   bool is_a_;
   NearPairs& pairs_;
