@@ -57,10 +57,9 @@ class Octave {
     }
     /// 0..1
     float at(float z) const {
-      const float at_z = of_.scale_ * z + middle[2];
-      const int cell = int(at_z);  // no corner is below 0 along z, and std::floor is a call
-      const int k = cell - of_.low_[2];
-      const float w = smooth(at_z - float(cell));
+      const float at_z = of_.scale_ * z + middle[2], cell = std::floor(at_z);
+      const float w = smooth(at_z - cell);
+      const int k = int(cell) - of_.low_[2];
       float sum = 0;
       for (int c = 0; c < 4; ++c) sum += weight_[c] * (1 - w) * values_[c][k];
       for (int c = 0; c < 4; ++c) sum += weight_[c] * w * values_[c][k + 1];
