@@ -1,6 +1,7 @@
 #include "viewer/render/disc_occlusion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -37,19 +38,56 @@ struct Raster {
 };
 
 /// Calls `row(begin, end)` for the pixels of each row whose centres lie within `radius`, until it
-/// returns false.
+/// returns false. Where rows begin and end is computed for several of them at once: their square
+/// roots then do not wait for what is done with the row before.
 template <class Row>
 bool over_rows(const Raster& r, const ProjectedDisc& d, float radius, const Row& row) {
+  constexpr int most = 8;
+  std::array<int, most> x0, x1;
   const int y1 = pixel(d.y + radius, r.height);
-  for (int y = pixel(d.y - radius, r.height); y < y1; ++y) {
-    const float dy = float(y) + 0.5f - d.y;
-    const float half = std::sqrt(std::max(radius * radius - dy * dy, 0.f));
-    const int x0 = pixel(d.x - half, r.width), x1 = pixel(d.x + half, r.width);
-    if (x0 >= x1) continue;
-    float* const line = r.depth + size_t(y - r.y0) * r.columns();
-    if (!row(line + (x0 - r.x0), line + (x1 - r.x0))) return false;
+  for (int y0 = pixel(d.y - radius, r.height); y0 < y1; y0 += most) {
+    for (int k = 0; k < most; ++k) {
+      const float dy = float(y0 + k) + 0.5f - d.y;
+      const float half = std::sqrt(std::max(radius * radius - dy * dy, 0.f));
+      x0[size_t(k)] = pixel(d.x - half, r.width);
+      x1[size_t(k)] = pixel(d.x + half, r.width);
+    }
+    for (int k = 0; k < std::min(most, y1 - y0); ++k) {
+      const int begin = x0[size_t(k)], end = x1[size_t(k)];
+      if (begin >= end) continue;
+      float* const line = r.depth + size_t(y0 + k - r.y0) * r.columns();
+      if (!row(line + (begin - r.x0), line + (end - r.x0))) return false;
+    }
   }
   return true;
+}
+
+/// Depths that are compared at once: the compiler unrolls that. The last ones of a row may overlap
+/// those before, which minimum and conjunction allow.
+constexpr std::ptrdiff_t at_once = 4;
+
+void lower_to(float depth, float* begin, float* end) {
+  const auto lower = [depth](float* p) {
+    for (int k = 0; k < at_once; ++k) p[k] = std::min(p[k], depth);
+  };
+  if (end - begin < at_once) {
+    for (float* p = begin; p != end; ++p) *p = std::min(*p, depth);
+    return;
+  }
+  for (float* p = begin; p < end - at_once; p += at_once) lower(p);
+  lower(end - at_once);
+}
+
+bool all_below(float depth, const float* begin, const float* end) {
+  const auto below = [depth](const float* p) {
+    bool all = true;
+    for (int k = 0; k < at_once; ++k) all &= p[k] < depth;
+    return all;
+  };
+  if (end - begin < at_once) return std::all_of(begin, end, [depth](float d) { return d < depth; });
+  for (const float* p = begin; p < end - at_once; p += at_once)
+    if (!below(p)) return false;
+  return below(end - at_once);
 }
 
 }  // namespace
@@ -62,7 +100,7 @@ void DiscOcclusion::find_hidden(const std::vector<ProjectedDisc>& discs, int wid
   for (const ProjectedDisc& d : discs) {
     if (!(d.cover_radius > 0)) continue;
     over_rows(raster, d, d.cover_radius, [&](float* begin, float* end) {
-      for (float* p = begin; p != end; ++p) *p = std::min(*p, d.cover_depth);
+      lower_to(d.cover_depth, begin, end);
       return true;
     });
   }
@@ -70,9 +108,7 @@ void DiscOcclusion::find_hidden(const std::vector<ProjectedDisc>& discs, int wid
   for (size_t i = 0; i < discs.size(); ++i) {
     const ProjectedDisc& d = discs[i];
     hidden[i] = over_rows(raster, d, d.outline_radius, [&](const float* begin, const float* end) {
-      bool all = true;
-      for (const float* p = begin; p != end; ++p) all &= *p < d.nearest_depth;
-      return all;
+      return all_below(d.nearest_depth, begin, end);
     });
   }
 }

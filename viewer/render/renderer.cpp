@@ -5,6 +5,10 @@
 #include "viewer/render/ui_pass.hpp"
 #include "viewer/render/world_pass.hpp"
 
+#include <array>
+#include <bit>
+#include <cstring>
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -13,6 +17,17 @@ namespace {
 /// Whether words are drawn over the world.
 bool has_words(const RenderScene& scene) {
   return !scene.texts.empty() || !scene.legends.empty() || scene.plate;
+}
+
+/// Sets the alpha of all pixels, by words: by bytes it takes several times as long.
+void make_opaque(std::span<uint8_t> rgba) {
+  constexpr auto opaque = std::bit_cast<uint32_t>(std::array<uint8_t, 4>{0, 0, 0, 255});
+  for (size_t i = 0; i + 4 <= rgba.size(); i += 4) {
+    uint32_t pixel = 0;
+    std::memcpy(&pixel, rgba.data() + i, 4);
+    pixel |= opaque;
+    std::memcpy(rgba.data() + i, &pixel, 4);
+  }
 }
 
 class RendererImpl final : public Renderer {
@@ -46,7 +61,7 @@ class RendererImpl final : public Renderer {
     image.channels = 4;
     image.pixels.resize(size_t(image.width) * size_t(image.height) * 4);
     device_.read_pixels(shown_.target, image.pixels);
-    for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+    make_opaque(image.pixels);
     return check_device("reading the picture back");
   }
   void present() override {

@@ -226,7 +226,11 @@ int render_frames(const RenderLine& line, const LoadedScene& scene, ReplayPlayer
     return view.at(from, to, s);
   };
   Progress progress(plan.frames_wanted, plan.frames.size());
-  if (!line.quiet) options.progress = [&progress](uint64_t done) { progress.show(done); };
+  if (!line.quiet)
+    options.progress = [&progress, then = options.progress](uint64_t done) {
+      progress.show(done);
+      if (then) then(done);
+    };
   const SequenceResult result = run_sequence(sequence, plan, options, stop);
   progress.finish();
   if (result.end == SequenceEnd::complete || result.end == SequenceEnd::stopped)
@@ -314,6 +318,8 @@ int run_render(RenderLine& line) {
   std::optional<Result<Drawing>> drawing;
   if (!line.resume) drawing.emplace(make_drawing(line.context, options.log));
   if (drawing && !(drawing->ok() && (*drawing)->context->info().software)) blocks.reset();
+  // What the first picture had no use for is not kept.
+  options.progress = [&blocks](uint64_t) { blocks.reset(); };
   const auto scene = loading.get();
   if (stop.requested()) return stop.exit_code();
   if (!scene) return report(scene.error(), exit_code_of_scene(scene.error()));

@@ -7,6 +7,7 @@
 #include "viewer/render/gl/target.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -182,6 +183,7 @@ class GlDevice final : public Device {
   std::vector<DrawCall> put_off_;  ///< calls of the open pass
   Status link_failure_;            ///< the first since take_link_failure() was called
   int pass_height_ = 0;
+  std::vector<uint8_t> spare_row_;  ///< of a picture that is read back
 };
 
 TextureId GlDevice::create_texture(TextureFormat format, int width, int height,
@@ -311,9 +313,13 @@ void GlDevice::read_pixels(TargetId target, std::span<uint8_t> rgba) {
   gl_.ReadPixels(0, 0, t.desc.width, t.desc.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   const size_t row = size_t(t.desc.width) * 4;
-  for (size_t y = 0, n = size_t(t.desc.height); y < n / 2; ++y)
-    std::swap_ranges(rgba.data() + y * row, rgba.data() + (y + 1) * row,
-                     rgba.data() + (n - 1 - y) * row);
+  spare_row_.resize(row);
+  for (size_t y = 0, n = size_t(t.desc.height); y < n / 2; ++y) {  // std::swap_ranges goes by bytes
+    uint8_t *const above = rgba.data() + y * row, *const below = rgba.data() + (n - 1 - y) * row;
+    std::memcpy(spare_row_.data(), above, row);
+    std::memcpy(above, below, row);
+    std::memcpy(below, spare_row_.data(), row);
+  }
 }
 
 std::vector<std::string> GlDevice::take_faults() {
