@@ -220,12 +220,18 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
     if (!grains.asleep[i] && way + longest_way_ * (h / tick.h) > far) out.push_back(uint32_t(i));
   };
   gather_found<NothingKept>(tick.crew, grains.size(), who, went_far);
-  for (const uint32_t i : who) {
-    start.push_back(from[i]);
-    v.push_back((grains.points[i].x - from[i]) / h);
-    core.push_back(tolerances::grain_core * grains.points[i].radius);
-  }
   if (who.empty()) return size_t{0};
+  start.resize(who.size());
+  v.resize(who.size());
+  core.resize(who.size());
+  for_chunks(tick.crew, who.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const GrainPoint& at = grains.points[who[k]];
+      start[k] = from[who[k]];
+      v[k] = (at.x - start[k]) / h;
+      core[k] = tolerances::grain_core * at.radius;
+    }
+  });
   std::vector<MovingShape> shapes;
   std::vector<Motion> motions;
   for (const Part& part : parts_) {
