@@ -1,5 +1,9 @@
 #include "engine/world/grains.hpp"
 
+#include "engine/core/chunks.hpp"
+
+#include <array>
+
 namespace tumble {
 namespace {
 
@@ -8,14 +12,17 @@ struct Sums {
   double energy = 0;
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
 
-  void add(const ParticleSystem& p, const Vec3& gravity, double sign) {
-    for (size_t i = 0; i < p.size(); ++i) {
-      const Vec3 mv = p.mass[i] * p.v[i], turning = p.moment(i) * p.spin[i];
-      energy += sign * (0.5 * (p.v[i].dot(mv) + p.spin[i].dot(turning)) -
-                        p.gravity_scale * p.mass[i] * gravity.dot(p.x[i]));
-      momentum += sign * mv;
-      angular_momentum += sign * (p.x[i].cross(mv) + turning);
-    }
+  void add(const ParticleSystem& p, size_t i, const Vec3& gravity, double sign) {
+    const Vec3 mv = p.mass[i] * p.v[i], turning = p.moment(i) * p.spin[i];
+    energy += sign * (0.5 * (p.v[i].dot(mv) + p.spin[i].dot(turning)) -
+                      p.gravity_scale * p.mass[i] * gravity.dot(p.x[i]));
+    momentum += sign * mv;
+    angular_momentum += sign * (p.x[i].cross(mv) + turning);
+  }
+  void add(const Sums& other) {
+    energy += other.energy;
+    momentum += other.momentum;
+    angular_momentum += other.angular_momentum;
   }
   void add(const RigidBody& b, const Vec3& v, const Vec3& omega, double sign) {
     const Vec3 mv = b.mass * v, turning = b.inertia_world() * omega;
@@ -42,9 +49,9 @@ class GrainBooks {
   GrainBooks(WorldState& s, const TickBackup& start) : s_(s), start_(start) {}
 
   void book() {
-    change();
+    grains();
+    pushed_bodies();
     carried();
-    gravity();
     forces();
     const GrainReport& r = s_.workspace.grain_report;
     line(LedgerLine::restitution, r.restitution);
@@ -56,12 +63,37 @@ class GrainBooks {
   }
 
  private:
-  void change() {
+  /// What changed of grains, and what gravity has done. Sums of each chunk are added up in the
+  /// order of the chunks.
+  void grains() {
+    struct Part {
+      Sums change;
+      LedgerEntry weight;
+    };
+    const Vec3& gravity = s_.settings.gravity.now();
+    LedgerEntry weight;
     for (uint32_t k = 0; k < s_.particles.size(); ++k) {
       if (!alive_grains(s_, k)) continue;
-      rest_.add(s_.particles[k], s_.settings.gravity.now(), 1);
-      rest_.add(start_.particles()[k], s_.settings.gravity.now(), -1);
+      const ParticleSystem &from = start_.particles()[k], &to = s_.particles[k];
+      std::array<Part, chunk_count> parts;
+      for_chunks(s_.crew.get(), to.size(), [&](size_t chunk, size_t first, size_t last) {
+        Part sum;
+        for (size_t i = first; i < last; ++i) {
+          sum.change.add(to, i, gravity, 1);
+          sum.change.add(from, i, gravity, -1);
+          sum.weight.add(push_on(from, to, i, to.mass[i] * to.gravity_scale * gravity, h_));
+        }
+        parts[chunk] = sum;
+      });
+      for (const Part& part : parts) {
+        rest_.add(part.change);
+        weight.add(part.weight);
+      }
     }
+    s_.ledger.book(LedgerLine::gravity, weight);
+    explained(weight, 0);
+  }
+  void pushed_bodies() {
     for (const GrainReport::Pushed& p : s_.workspace.grain_report.bodies) {
       const RigidBody& b = s_.bodies.bodies[p.slot];
       rest_.add(b, b.v, b.omega, 1);
@@ -89,18 +121,6 @@ class GrainBooks {
     const LedgerEntry entry{e.work, e.work, e.momentum, e.angular_momentum};
     s_.ledger.book(name, entry);
     explained(entry, e.work);
-  }
-  void gravity() {
-    LedgerEntry weight;
-    for (uint32_t k = 0; k < s_.particles.size(); ++k) {
-      if (!alive_grains(s_, k)) continue;
-      const ParticleSystem &from = start_.particles()[k], &to = s_.particles[k];
-      for (size_t i = 0; i < to.size(); ++i)
-        weight.add(
-            push_on(from, to, i, to.mass[i] * to.gravity_scale * s_.settings.gravity.now(), h_));
-    }
-    s_.ledger.book(LedgerLine::gravity, weight);
-    explained(weight, 0);
   }
   void forces() {
     const std::vector<ForceShare>& shares = s_.workspace.books.shares;

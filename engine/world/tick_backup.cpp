@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/dynamics/particles/copy_particles.hpp"
 #include "engine/world/state.hpp"
 
 #include <algorithm>
@@ -18,10 +19,8 @@ void TickBackup::take(WorldState& s) {
   time_stepped_particles_ = s.event.time_stepped_particles;
   touching_particles_ = s.touching_particles;
   particles_.resize(s.particles.size());
-  for (size_t i = 0; i < particles_.size(); ++i) {
-    particles_[i].reserve(s.particles[i].x.capacity());
-    particles_[i] = s.particles[i];
-  }
+  for (size_t i = 0; i < particles_.size(); ++i)
+    copy_particles(s.particles[i], particles_[i], s.crew.get());
   emitters_ = s.emitters.list;
   s.contacts.begin_tick();
   s.particle_contacts.begin_tick();

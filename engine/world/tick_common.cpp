@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -65,6 +66,10 @@ bool finite(const RigidBody& b) {
           b.omega.allFinite());
 }
 
+bool finite(const ParticleSystem& p, size_t i) {
+  return p.x[i].allFinite() && p.v[i].allFinite();
+}
+
 }  // namespace
 
 const std::vector<BodyLink>& body_links(WorldState& s) {
@@ -120,8 +125,13 @@ Status check_finite(const WorldState& s) {
                  "use a smaller tick, softer springs or smaller velocities"};
   }
   for (const ParticleSystem& p : s.particles) {
-    for (size_t i = 0; i < p.size(); ++i) {
-      if (p.x[i].allFinite() && p.v[i].allFinite()) continue;
+    std::atomic<bool> fine = true;
+    for_chunks(s.crew.get(), p.size(), [&](size_t, size_t first, size_t last) {
+      for (size_t i = first; i < last; ++i)
+        if (!finite(p, i)) fine.store(false, std::memory_order_relaxed);
+    });
+    for (size_t i = 0; !fine && i < p.size(); ++i) {
+      if (finite(p, i)) continue;
       return Error{ErrorCode::numeric, "the state of a particle is not finite",
                    fmt::format("tick {}, particle {} of '{}'", s.tick + 1, p.id[i], p.name),
                    "use a smaller tick, softer springs or smaller velocities"};

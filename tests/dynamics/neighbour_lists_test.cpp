@@ -246,3 +246,28 @@ TEST_CASE("points lined up are in the order in which cells sort them") {
   CHECK(std::ranges::equal(sorted.order(), lined_up.order()));
   CHECK(lined_up.cells().empty());
 }
+
+TEST_CASE("points are sorted alike on any threads, and those of a cell stay in their order") {
+  Random r(10);
+  const double size = 0.1;
+  const std::vector<Vec3> x = cloud(r, 30000, {-4, 1, -2}, {4, 2, 3});
+  CellOrder alone;
+  alone.sort(x, size);
+  for (const int threads : {1, 3}) {
+    Crew crew(threads);
+    CellOrder sorted;
+    sorted.sort(x, size, &crew);
+    CHECK(std::ranges::equal(sorted.order(), alone.order()));
+    CHECK(sorted.cells().back().end == x.size());
+    bool ascending = true, inside = true;
+    for (const CellOrder::Cell& cell : sorted.cells())
+      for (uint32_t k = cell.first; k < cell.end; ++k) {
+        const uint32_t p = sorted.order()[k];
+        ascending = ascending && (k == cell.first || sorted.order()[k - 1] < p);
+        const auto at = [&](int axis) { return int64_t(std::floor(x[p][axis] / size)); };
+        inside = inside && cell.at(at(0), at(1), at(2));
+      }
+    CHECK(ascending);
+    CHECK(inside);
+  }
+}

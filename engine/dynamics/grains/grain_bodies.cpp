@@ -1,11 +1,13 @@
 #include "engine/dynamics/grains/grain_bodies.hpp"
 
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/contact/contact.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 #include "engine/dynamics/islands/waking.hpp"
 #include "engine/math/rotation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
@@ -60,14 +62,11 @@ uint32_t GrainBodies::body_of(const GrainTick& tick, uint32_t slot) {
   return index_[slot];
 }
 
-GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
-                              const NearShapes& shapes, const NearShapes::Touch& t,
-                              GrainReport& report) {
-  const NearShapes::Part& part = shapes.parts()[t.part];
+uint32_t GrainBodies::touched_body(const GrainTick& tick, const GrainField& grains,
+                                   const NearShapes::Part& part, const NearShapes::Touch& t,
+                                   GrainReport& report) {
   RigidBody& body = tick.bodies.bodies[part.body];
-  const Material& material = body.shapes[part.shape].material;
   const GrainMover& grain = grains.movers[t.grain];
-  const ParticleSystem& p = tick.systems[grains.owner[t.grain].system];
   // Wakes a body that the grain would move faster than bodies sleep.
   if (body.dynamic() && body.asleep && t.gap <= 0 &&
       t.n.dot(grain.v) * body.inverse_mass > tick.settings.sleep_speed * grain.inverse_mass) {
@@ -75,9 +74,20 @@ GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
     report.woke_bodies = true;
     index_[part.body] = ~uint32_t{0};
   }
+  return body_of(tick, part.body);
+}
+
+GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
+                              const NearShapes& shapes, const NearShapes::Touch& t,
+                              uint32_t of) const {
+  const NearShapes::Part& part = shapes.parts()[t.part];
+  const RigidBody& body = tick.bodies.bodies[part.body];
+  const Material& material = body.shapes[part.shape].material;
+  const GrainMover& grain = grains.movers[t.grain];
+  const ParticleSystem& p = tick.systems[grains.owner[t.grain].system];
   GrainBodyRow row;
   row.a = t.grain;
-  row.b = body_of(tick, part.body);
+  row.b = of;
   const GrainBody& b = bodies_[row.b];
   row.key = shape_key(part.body, part.shape);
   row.n = t.n;
@@ -115,12 +125,23 @@ GrainBodyRow GrainBodies::row(const GrainTick& tick, const GrainField& grains,
 void GrainBodies::make_rows(const GrainTick& tick, const GrainField& grains,
                             const NearShapes& shapes, std::span<const NearShapes::Touch> touching,
                             GrainReport& report) {
-  walls_.clear();
-  held_.clear();
-  for (const NearShapes::Touch& t : touching) {
-    const GrainBodyRow made = row(tick, grains, shapes, t, report);
-    (bodies_[made.b].gives_way ? held_ : walls_).push_back(made);
+  // One after the other: a grain may wake the body of those after it.
+  places_.resize(touching.size());
+  uint32_t walls = 0, held = 0;
+  for (size_t k = 0; k < touching.size(); ++k) {
+    const NearShapes::Touch& t = touching[k];
+    const uint32_t body = touched_body(tick, grains, shapes.parts()[t.part], t, report);
+    places_[k] = {body, bodies_[body].gives_way ? held++ : walls++};
   }
+  walls_.resize(walls);
+  held_.resize(held);
+  for_chunks(tick.crew, touching.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const auto [body, index] = places_[k];
+      std::vector<GrainBodyRow>& rows = bodies_[body].gives_way ? held_ : walls_;
+      rows[index] = row(tick, grains, shapes, touching[k], body);
+    }
+  });
 }
 
 void GrainBodies::give(const GrainTick& tick, GrainTouches& touches, GrainReport& report) const {
@@ -139,27 +160,38 @@ void GrainBodies::give(const GrainTick& tick, GrainTouches& touches, GrainReport
   std::ranges::sort(report.bodies, {}, &GrainReport::Pushed::slot);
 }
 
-void GrainBodies::count(GrainReport& report) const {
-  const auto add = [&report](const GrainBodyRow& row) {
-    report.restitution.work += row.lost;
-    report.friction.work += row.rubbed;
-    report.deepest = std::max(report.deepest, -row.gap);
+/// Sums of each chunk of rows, added up in the order of the chunks.
+template <class Add>
+void GrainBodies::sum_rows(Crew* crew, std::span<const GrainBodyRow> rows, GrainReport& report,
+                           const Add& add) {
+  std::array<GrainReport, chunk_count> sums;
+  for_chunks(crew, rows.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (const GrainBodyRow& row : rows.subspan(first, last - first)) add(row, sums[chunk]);
+  });
+  for (const GrainReport& sum : sums) report.add_effects(sum);
+}
+
+void GrainBodies::count(Crew* crew, GrainReport& report) const {
+  const auto add = [](const GrainBodyRow& row, GrainReport& sum) {
+    sum.restitution.work += row.lost;
+    sum.friction.work += row.rubbed;
+    sum.deepest = std::max(sum.deepest, -row.gap);
   };
-  for (const GrainBodyRow& row : held_) {
-    add(row);
-    report.kinematic.work += row.rubbing.dot(row.belt);
-  }
-  for (const GrainBodyRow& row : walls_) {
-    add(row);
+  sum_rows(crew, held_, report, [&](const GrainBodyRow& row, GrainReport& sum) {
+    add(row, sum);
+    sum.kinematic.work += row.rubbing.dot(row.belt);
+  });
+  sum_rows(crew, walls_, report, [&](const GrainBodyRow& row, GrainReport& sum) {
+    add(row, sum);
     const GrainBody& b = bodies_[row.b];
     const Vec3 at = row.from + row.arm_a * row.n;
-    report.restitution.momentum += row.given;
-    report.restitution.angular_momentum += at.cross(row.given);
-    report.friction.momentum += row.rubbing;
-    report.friction.angular_momentum += at.cross(row.rubbing) + row.turning;
+    sum.restitution.momentum += row.given;
+    sum.restitution.angular_momentum += at.cross(row.given);
+    sum.friction.momentum += row.rubbing;
+    sum.friction.angular_momentum += at.cross(row.rubbing) + row.turning;
     const Vec3 v = b.v + b.omega.cross(row.arm) + row.belt;
-    report.kinematic.work += (row.given + row.rubbing).dot(v) + row.turning.dot(b.omega);
-  }
+    sum.kinematic.work += (row.given + row.rubbing).dot(v) + row.turning.dot(b.omega);
+  });
 }
 
 }  // namespace tumble

@@ -24,7 +24,7 @@ class GrainBodies {
   /// Ends a tick: sets the velocities of the bodies that grains moved.
   void give(const GrainTick& tick, GrainTouches& touches, GrainReport& report) const;
   /// Adds the effects of the rows with bodies in a part to the books.
-  void count(GrainReport& report) const;
+  void count(Crew* crew, GrainReport& report) const;
 
   std::span<GrainBody> all() { return bodies_; }
   std::span<const GrainBody> all() const { return bodies_; }
@@ -35,13 +35,25 @@ class GrainBodies {
   std::span<const GrainBodyRow> held() const { return held_; }
 
  private:
+  /// Where the row of a contact is stored: among those of walls or of movable bodies.
+  struct RowPlace {
+    uint32_t body, index;
+  };
+  /// The body of a contact, as an index of all(); wakes it where the grain hits it.
+  uint32_t touched_body(const GrainTick& tick, const GrainField& grains,
+                        const NearShapes::Part& part, const NearShapes::Touch& touch,
+                        GrainReport& report);
   GrainBodyRow row(const GrainTick& tick, const GrainField& grains, const NearShapes& shapes,
-                   const NearShapes::Touch& touch, GrainReport& report);
+                   const NearShapes::Touch& touch, uint32_t body) const;
+  template <class Add>
+  static void sum_rows(Crew* crew, std::span<const GrainBodyRow> rows, GrainReport& report,
+                       const Add& add);
   uint32_t body_of(const GrainTick& tick, uint32_t slot);
 
   std::vector<GrainBody> bodies_;
   std::vector<uint32_t> index_;  ///< by body slot: index in bodies_
   std::vector<GrainBodyRow> walls_, held_;
+  std::vector<RowPlace> places_;  ///< by contact
   std::vector<GrainLoad> carried_;
 };
 

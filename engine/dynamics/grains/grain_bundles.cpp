@@ -2,11 +2,13 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/prefetch.hpp"
+#include "engine/core/scratch_size.hpp"
 #include "engine/dynamics/grains/pair_kernels.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -48,6 +50,7 @@ void GrainBundles::colour_block(const GrainPairList& pairs, const GrainField& gr
       const size_t j = pairs.all[k].b;
       if (j / grain_block != block) {
         colour_[k] = crosses;
+        ++counts.crossing;
         continue;
       }
       const bool moves_i = !grains.asleep[i], moves_j = !grains.asleep[j];
@@ -97,33 +100,43 @@ void GrainBundles::lay_out(const GrainPairList& pairs, const GrainField& grains,
         for (size_t k = first; k < last; ++k) colour_block(pairs, grains, k);
       },
       2);
-  uint32_t bundles = 0;
+  uint32_t bundles = 0, crossing = 0;
   for (size_t k = 0; k < blocks; ++k) {
     blocks_[k] = {bundles, bundles + counts_[k].bundles()};
     bundles = blocks_[k].end;
+    crossing += std::exchange(counts_[k].crossing, crossing);
   }
-  crossing_.clear();
-  for (uint32_t k = 0; k < colour_.size(); ++k)
-    if (colour_[k] == crosses) crossing_.push_back(k);
-  colour_between(pairs, grains);
-  if (!between_.empty()) bundles = between_.back().end;
-  bundles_.resize(bundles);
-  source_.assign(bundles * grain_lanes, GrainPairList::none);
-  for (const uint32_t k : crossing_) source_[slot_[k]] = k;
+  crossing_.resize(crossing);
+  source_.resize(bundles * grain_lanes);
   for_chunks(
       crew, blocks,
       [&](size_t, size_t first, size_t last) {
-        for (size_t b = first; b < last; ++b) {
-          Slots slots(counts_[b], blocks_[b].begin);
-          const size_t end = std::min((b + 1) * grain_block, grains.size());
-          for (uint32_t k = pairs.first[b * grain_block]; k < pairs.first[end]; ++k) {
-            if (pairs.all[k].b / grain_block != b) continue;
-            slot_[k] = slots.take(colour_[k]);
-            source_[slot_[k]] = k;
-          }
-        }
+        for (size_t k = first; k < last; ++k)
+          fill_block(pairs, grains, k, crossing_.data() + counts_[k].crossing);
       },
       2);
+  colour_between(pairs, grains);
+  if (!between_.empty()) bundles = between_.back().end;
+  source_.resize(bundles * grain_lanes, GrainPairList::none);
+  for (const uint32_t k : crossing_) source_[slot_[k]] = k;
+  resize_scratch(bundles_, bundles);
+}
+
+void GrainBundles::fill_block(const GrainPairList& pairs, const GrainField& grains, size_t block,
+                              uint32_t* crossing) {
+  const GrainRange& range = blocks_[block];
+  std::fill(source_.begin() + range.begin * ptrdiff_t(grain_lanes),
+            source_.begin() + range.end * ptrdiff_t(grain_lanes), GrainPairList::none);
+  Slots slots(counts_[block], range.begin);
+  const size_t end = std::min((block + 1) * grain_block, grains.size());
+  for (uint32_t k = pairs.first[block * grain_block]; k < pairs.first[end]; ++k) {
+    if (colour_[k] == crosses) {
+      *crossing++ = k;
+    } else {
+      slot_[k] = slots.take(colour_[k]);
+      source_[slot_[k]] = k;
+    }
+  }
 }
 
 void GrainBundles::fill(const GrainTick& tick, const GrainPairList& pairs, const GrainField& grains,

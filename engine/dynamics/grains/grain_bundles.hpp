@@ -86,6 +86,8 @@ class GrainBundles {
   struct Counts {
     /// Number of pairs by colour; the last entry is of those without.
     std::array<uint32_t, colours + 1> of{};
+    /// Number of pairs with grains of other blocks; then the sum of those of the blocks before.
+    uint32_t crossing = 0;
     uint32_t bundles() const;
   };
   /// Assigns slots (lanes) of consecutive bundles, colour by colour.
@@ -100,6 +102,9 @@ class GrainBundles {
     std::array<uint32_t, colours + 1> taken_{};
   };
   void colour_block(const GrainPairList& pairs, const GrainField& grains, size_t block);
+  /// Assigns the pairs within a block to slots, and lists the others from `crossing` on.
+  void fill_block(const GrainPairList& pairs, const GrainField& grains, size_t block,
+                  uint32_t* crossing);
   void colour_between(const GrainPairList& pairs, const GrainField& grains);
   /// What contacts of grains of two systems have in common.
   struct PairMaterial {
@@ -120,12 +125,12 @@ class GrainBundles {
   std::vector<GrainTurning> turnings_;
   std::vector<GrainBounce> bounces_;
   std::vector<GrainRange> blocks_, between_;
-  std::vector<uint32_t> slot_;    ///< by pair: its bundle times grain_lanes plus its lane
-  std::vector<uint32_t> source_;  ///< by slot: its pair, or GrainPairList::none
-  std::vector<uint8_t> colour_;   ///< by pair
-  std::vector<Counts> counts_;    ///< by block
-  std::vector<uint32_t> crossing_;
-  std::vector<uint64_t> used_;  ///< by grain: a bit for each colour of its contacts
+  std::vector<uint32_t> slot_;      ///< by pair: its bundle times grain_lanes plus its lane
+  std::vector<uint32_t> source_;    ///< by slot: its pair, or GrainPairList::none
+  std::vector<uint8_t> colour_;     ///< by pair
+  std::vector<Counts> counts_;      ///< by block
+  std::vector<uint32_t> crossing_;  ///< pairs between blocks
+  std::vector<uint64_t> used_;      ///< by grain: a bit for each colour of its contacts
 };
 
 }  // namespace tumble

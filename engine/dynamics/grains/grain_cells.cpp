@@ -23,7 +23,7 @@ Status check_places(const GrainField& grains, double size) {
 
 }  // namespace
 
-Status GrainCells::sort(const GrainField& grains, std::span<const double> closes, double reach,
+Status GrainCells::sort(const GrainField& grains, std::span<const Vec3> ways, double reach,
                         Crew* crew) {
   const double size = tolerances::grain_cell * grains.largest_radius;
   if (Status fine = check_places(grains, size); !fine) return fine;
@@ -35,7 +35,8 @@ Status GrainCells::sort(const GrainField& grains, std::span<const double> closes
   });
   cells_.sort(points_, size, crew);
   for (std::vector<double>* c : {&x_, &y_, &z_}) c->resize(n + grain_batch);
-  extent_.resize(n + grain_batch);
+  for (std::vector<float>* c : {&extent_, &radius_, &way_x_, &way_y_, &way_z_})
+    c->resize(n + grain_batch);
   place_.resize(n + grain_batch);
   ordinal_.resize(n + grain_batch);
   for_chunks(crew, n, [&](size_t, size_t first, size_t last) {
@@ -43,7 +44,9 @@ Status GrainCells::sort(const GrainField& grains, std::span<const double> closes
       const uint32_t i = cells_.order()[k];
       const GrainPoint& p = grains.points[i];
       x_[k] = p.x[0], y_[k] = p.x[1], z_[k] = p.x[2];
-      extent_[k] = float(p.radius + closes[i]);
+      extent_[k] = float(p.radius + ways[i].norm());
+      radius_[k] = float(p.radius);
+      way_x_[k] = float(ways[i][0]), way_y_[k] = float(ways[i][1]), way_z_[k] = float(ways[i][2]);
       place_[k] = i;
       ordinal_[k] = int32_t(grains.ordinal[i]);
     }
@@ -79,7 +82,8 @@ bool GrainCells::stirs(size_t cell) const {
 
 void GrainCells::Near::make_room(size_t size) {
   if (size <= x_.size()) return;
-  for (std::vector<float>* c : {&x_, &y_, &z_, &extent_}) c->resize(2 * size);
+  for (std::vector<float>* c : {&x_, &y_, &z_, &extent_, &radius_, &way_x_, &way_y_, &way_z_})
+    c->resize(2 * size);
   for (std::vector<uint32_t>* c : {&place_, &found_}) c->resize(2 * size);
   ordinal_.resize(2 * size);
 }
@@ -93,20 +97,28 @@ void GrainCells::Near::collect(const GrainCells& in, const CellOrder::Cell& cell
     make_room(size + (at.end - at.first) + 2 * grain_batch);
     size = add_near_cell(in.columns(), at.first, at.end, centre_.data(), half, view(), size);
   });
-  size_ = size;
   padded_ = (size + grain_batch - 1) / grain_batch * grain_batch;
   for (; size < padded_; ++size) {
     x_[size] = y_[size] = z_[size] = tolerances::far_coordinate;
-    extent_[size] = 0;
+    extent_[size] = radius_[size] = way_x_[size] = way_y_[size] = way_z_[size] = 0;
     ordinal_[size] = 0;
   }
 }
 
 std::span<const uint32_t> GrainCells::Near::of(const GrainCells& in, uint32_t k, double more,
                                                int32_t after) {
+  const double margin = tolerances::grain_margin * double(in.radius_[k]);
   const NearGrain grain{
-      float(in.x_[k] - centre_[0]), float(in.y_[k] - centre_[1]), float(in.z_[k] - centre_[2]),
-      float((double(in.extent_[k]) + more) * (1 + tolerances::neighbour_rounding)), after};
+      float(in.x_[k] - centre_[0]),
+      float(in.y_[k] - centre_[1]),
+      float(in.z_[k] - centre_[2]),
+      float((double(in.extent_[k]) + more + margin) * (1 + tolerances::neighbour_rounding)),
+      in.radius_[k],
+      in.way_x_[k],
+      in.way_y_[k],
+      in.way_z_[k],
+      float(more),
+      after};
   return {found_.data(), find_near(view(), padded_, grain, found_.data())};
 }
 

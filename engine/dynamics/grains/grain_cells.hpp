@@ -11,10 +11,10 @@ namespace tumble {
 /// and no cached list can be invalidated by a single fast grain.
 class GrainCells {
  public:
-  /// `closes`: by place, how far a grain may move in the part relative to the mean of all grains
-  /// [m]. `reach`: greatest distance of centres that are searched for, at most the edge of a cell
-  /// [m]. Error if coordinates are too large for the grid.
-  Status sort(const GrainField& grains, std::span<const double> closes, double reach, Crew* crew);
+  /// `ways`: by place, how a grain may move in the part relative to the mean of all grains [m].
+  /// `reach`: greatest distance of centres that are searched for, at most the edge of a cell [m].
+  /// Error if coordinates are too large for the grid.
+  Status sort(const GrainField& grains, std::span<const Vec3> ways, double reach, Crew* crew);
   std::span<const CellOrder::Cell> cells() const { return cells_.cells(); }
   /// Place of the k-th grain in the order of cells.
   uint32_t place(uint32_t k) const { return cells_.order()[k]; }
@@ -27,29 +27,30 @@ class GrainCells {
   class Near {
    public:
     void collect(const GrainCells& in, const CellOrder::Cell& cell);
-    /// Places of the grains that were collected.
-    std::span<const uint32_t> places() const { return {place_.data(), size_}; }
-    /// Grains whose extent, enlarged by `more` metres, meets that of the k-th grain, and whose
-    /// ordinals are above `after`: indices for place().
+    /// Grains that the k-th one may meet in the part, as far as it is foreseen, or comes within
+    /// `more` metres of, and whose ordinals are above `after`: indices for place(). Those of which
+    /// rounding decides have the bit doubtful_grain.
     std::span<const uint32_t> of(const GrainCells& in, uint32_t k, double more, int32_t after);
-    uint32_t place(uint32_t n) const { return place_[n]; }
-    uint32_t ordinal(uint32_t n) const { return uint32_t(ordinal_[n]); }
+    uint32_t place(uint32_t n) const { return place_[n & ~doubtful_grain]; }
+    uint32_t ordinal(uint32_t n) const { return uint32_t(ordinal_[n & ~doubtful_grain]); }
 
    private:
     void make_room(size_t size);
     GrainsNearCell view() {
-      return {x_.data(), y_.data(), z_.data(), extent_.data(), place_.data(), ordinal_.data()};
+      return {x_.data(),     y_.data(),     z_.data(),     extent_.data(), radius_.data(),
+              way_x_.data(), way_y_.data(), way_z_.data(), place_.data(),  ordinal_.data()};
     }
     Vec3 centre_ = Vec3::Zero();
-    size_t size_ = 0, padded_ = 0;
-    std::vector<float> x_, y_, z_, extent_;
+    size_t padded_ = 0;
+    std::vector<float> x_, y_, z_, extent_, radius_, way_x_, way_y_, way_z_;
     std::vector<uint32_t> place_, found_;
     std::vector<int32_t> ordinal_;
   };
 
  private:
   GrainColumns columns() const {
-    return {x_.data(), y_.data(), z_.data(), extent_.data(), place_.data(), ordinal_.data()};
+    return {x_.data(),     y_.data(),     z_.data(),     extent_.data(), radius_.data(),
+            way_x_.data(), way_y_.data(), way_z_.data(), place_.data(),  ordinal_.data()};
   }
   template <class F>
   void about(const CellOrder::Cell& cell, const F& f) const;
@@ -59,7 +60,7 @@ class GrainCells {
   std::vector<Vec3> points_;
   // In the order of the cells, followed by padding up to a full vector.
   std::vector<double> x_, y_, z_;
-  std::vector<float> extent_;
+  std::vector<float> extent_, radius_, way_x_, way_y_, way_z_;
   std::vector<uint32_t> place_;
   std::vector<int32_t> ordinal_;
   std::vector<uint8_t> awake_;  ///< by cell: some grain of it is awake

@@ -6,8 +6,11 @@
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace tumble {
 
@@ -53,9 +56,12 @@ Status GrainField::line_up(const GrainTick& tick) {
     largest_radius = std::max(largest_radius, largest);
     largest_mass = std::max(largest_mass, std::ranges::max(p.mass));
   }
-  for (const Vec3& x : by_ordinal_)
-    if (!x.allFinite())
-      return Error{ErrorCode::numeric, "the state of a particle is not finite", {}, {}};
+  std::atomic<bool> finite = true;
+  for_chunks(tick.crew, count, [&](size_t, size_t begin, size_t end) {
+    for (size_t n = begin; n < end; ++n)
+      if (!by_ordinal_[n].allFinite()) finite.store(false, std::memory_order_relaxed);
+  });
+  if (!finite) return Error{ErrorCode::numeric, "the state of a particle is not finite", {}, {}};
   curve_.line_up(by_ordinal_, tolerances::grain_cell * largest_radius, tick.crew);
   return {};
 }
@@ -77,7 +83,8 @@ Status GrainField::gather(const GrainTick& tick) {
   asleep.resize(count);
   place_of.resize(count);
   ordinal.assign(curve_.order().begin(), curve_.order().end());
-  for_chunks(tick.crew, count, [&](size_t, size_t begin, size_t end) {
+  std::array<size_t, chunk_count> sleeping{};
+  for_chunks(tick.crew, count, [&](size_t chunk, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const Owner later = owner_of(ordinal[std::min(i + gather_ahead, end - 1)]);
       prefetch_grain(tick.systems[later.system], later.index);
@@ -92,9 +99,10 @@ Status GrainField::gather(const GrainTick& tick) {
       movers[i] = {p.v[index], 0, p.spin[index], 0};
       acceleration[i].setZero();
       if (!asleep[i]) wake(tick, i);
+      sleeping[chunk] += asleep[i];
     }
   });
-  sleepers = size_t(std::ranges::count(asleep, 1));
+  sleepers = std::accumulate(sleeping.begin(), sleeping.end(), size_t{0});
   return {};
 }
 

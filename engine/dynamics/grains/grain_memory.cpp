@@ -1,12 +1,17 @@
 #include "engine/dynamics/grains/grain_memory.hpp"
 
 #include "engine/core/chunks.hpp"
+#include "engine/core/scratch_size.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 namespace tumble {
+
+bool GrainMemory::in_order(const Beside& u, const Beside& v) {
+  return u.place != v.place ? u.place < v.place : u.touch.b < v.touch.b;
+}
 
 void GrainMemory::find_own(const GrainTick& tick, const GrainField& grains,
                            std::span<const GrainTouch> touches) {
@@ -99,33 +104,33 @@ void GrainMemory::recall(const GrainTick& tick, const GrainField& grains,
 }
 
 void GrainMemory::list_beside(const GrainField& grains, std::span<const GrainBodyRow> walls,
-                              std::span<const GrainBodyRow> held, double hs) {
-  const auto before = [](const Beside& u, const Beside& v) {
-    return u.place != v.place ? u.place < v.place : u.touch.b < v.touch.b;
+                              std::span<const GrainBodyRow> held, double hs, size_t first,
+                              size_t last, std::vector<Beside>& out) const {
+  const auto in_range = [&](const auto& list, auto place) {
+    return std::ranges::subrange(std::ranges::lower_bound(list, first, {}, place),
+                                 std::ranges::lower_bound(list, last, {}, place));
   };
   const auto force = [hs](const Vec3& v) {
     return std::array{float(v[0] / hs), float(v[1] / hs), float(v[2] / hs)};
   };
-  // Usually sorted already, since sleeping grains do not change places.
-  if (!std::ranges::is_sorted(kept_, before)) std::ranges::sort(kept_, before);
-  beside_ = kept_;
-  const auto middle = std::ptrdiff_t(beside_.size());
+  const auto kept = in_range(kept_, &Beside::place);
+  out.assign(kept.begin(), kept.end());
   for (const std::span<const GrainBodyRow> rows : {walls, held})
-    for (const GrainBodyRow& r : rows)
+    for (const GrainBodyRow& r : in_range(rows, &GrainBodyRow::a))
       if (r.push > 0)
-        beside_.push_back(
+        out.push_back(
             {r.a, {{float(r.push / hs), force(r.rub), force(r.turn), 0}, grains.key[r.a], r.key}});
-  std::sort(beside_.begin() + middle, beside_.end(), before);
-  std::inplace_merge(beside_.begin(), beside_.begin() + middle, beside_.end(), before);
+  if (!std::ranges::is_sorted(out, in_order)) std::ranges::sort(out, in_order);
 }
 
 template <class F>
-void GrainMemory::each_of(const GrainField& grains, const GrainPairList& pairs, size_t first,
-                          size_t last, const F& f) const {
-  auto beside = std::ranges::lower_bound(beside_, first, {}, &Beside::place);
+void GrainMemory::each_of(const GrainField& grains, const GrainPairList& pairs,
+                          std::span<const Beside> listed, size_t first, size_t last,
+                          const F& f) const {
+  auto beside = listed.begin();
   for (size_t i = first; i < last; ++i) {
     const auto add_beside = [&](uint64_t end) {
-      for (; beside != beside_.end() && beside->place == i && beside->touch.b < end; ++beside)
+      for (; beside != listed.end() && beside->place == i && beside->touch.b < end; ++beside)
         f(beside->touch);
     };
     for (uint32_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
@@ -141,23 +146,22 @@ void GrainMemory::each_of(const GrainField& grains, const GrainPairList& pairs, 
 void GrainMemory::store(const GrainTick& tick, const GrainField& grains, const GrainPairList& pairs,
                         std::span<const GrainBodyRow> walls, std::span<const GrainBodyRow> held,
                         double hs, GrainTouches& touches) {
-  list_beside(grains, walls, held, hs);
-  const auto beside = [this](size_t place) {
-    return size_t(std::ranges::lower_bound(beside_, place, {}, &Beside::place) - beside_.begin());
-  };
+  // Usually sorted already, since sleeping grains do not change places.
+  if (!std::ranges::is_sorted(kept_, in_order)) std::ranges::sort(kept_, in_order);
   // First the number of contacts of each thread's range, then the contacts.
   std::array<size_t, chunk_count> begins{};
   for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
-    size_t count = beside(last) - beside(first);
+    list_beside(grains, walls, held, hs, first, last, beside_[chunk]);
+    size_t count = beside_[chunk].size();
     for (uint32_t k = pairs.first[first]; k < pairs.first[last]; ++k) count += forces_[k].push > 0;
     begins[chunk] = count;
   });
   size_t sum = 0;
   for (size_t& b : begins) sum += std::exchange(b, sum);
-  next_.resize(sum);
+  resize_scratch(next_, sum);
   for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
     GrainTouch* to = next_.data() + begins[chunk];
-    each_of(grains, pairs, first, last, [&](const GrainTouch& t) { *to++ = t; });
+    each_of(grains, pairs, beside_[chunk], first, last, [&](const GrainTouch& t) { *to++ = t; });
   });
   touches.replace(next_, grains.size());
 }

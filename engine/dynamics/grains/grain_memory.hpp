@@ -1,7 +1,9 @@
 #pragma once
+#include "engine/core/chunks.hpp"
 #include "engine/dynamics/grains/grain_pairs.hpp"
 #include "engine/dynamics/grains/grain_touch.hpp"
 
+#include <array>
 #include <vector>
 
 namespace tumble {
@@ -40,6 +42,7 @@ class GrainMemory {
     uint32_t place;  ///< place of its grain `a`
     GrainTouch touch;
   };
+  static bool in_order(const Beside& u, const Beside& v);
   /// What becomes of remembered contacts that are not among those of the part.
   struct Left {
     std::vector<Beside> kept;
@@ -47,17 +50,21 @@ class GrainMemory {
   };
   static void sort_out(const GrainTick& tick, const GrainField& grains, const GrainTouch& touch,
                        Left& left);
+  /// Lists contacts of the places [first, last) with bodies that press, and those that are kept, in
+  /// the order in which they are stored.
   void list_beside(const GrainField& grains, std::span<const GrainBodyRow> walls,
-                   std::span<const GrainBodyRow> held, double hs);
+                   std::span<const GrainBodyRow> held, double hs, size_t first, size_t last,
+                   std::vector<Beside>& out) const;
   /// Calls f(touch) for all contacts of the places [first, last) that are to be stored, in order.
   template <class F>
-  void each_of(const GrainField& grains, const GrainPairList& pairs, size_t first, size_t last,
-               const F& f) const;
+  void each_of(const GrainField& grains, const GrainPairList& pairs, std::span<const Beside> listed,
+               size_t first, size_t last, const F& f) const;
 
   std::vector<Span> own_;            ///< by place: range of touches with that grain as `a`
   std::vector<GrainForces> forces_;  ///< by pair
   std::vector<uint8_t> taken_;       ///< by touch: belongs to a pair or row of the part
-  std::vector<Beside> kept_, beside_;
+  std::vector<Beside> kept_;
+  std::array<std::vector<Beside>, chunk_count> beside_;  ///< by chunk of places
   std::vector<GrainTouch> next_;
   std::vector<uint32_t> lost_;
 };

@@ -1,11 +1,11 @@
 #include "engine/dynamics/grains/grain_pairs.hpp"
 
 #include "engine/core/chunks.hpp"
-#include "engine/core/prefetch.hpp"
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/grains/tolerances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
@@ -17,16 +17,24 @@ constexpr size_t least_cells = 16;
 }  // namespace
 
 Status GrainPairs::sort(const GrainTick& tick, const GrainField& grains, double h) {
+  std::array<Vec3, chunk_count> sums;
+  sums.fill(Vec3::Zero());
+  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) sums[chunk] += grains.movers[i].v;
+  });
   Vec3 mean = Vec3::Zero();
-  for (const GrainMover& m : grains.movers) mean += m.v;
-  mean /= double(grains.size());
-  closes_.resize(grains.size());
-  for_chunks(tick.crew, grains.size(), [&](size_t, size_t first, size_t last) {
-    for (size_t i = first; i < last; ++i) closes_[i] = h * (grains.movers[i].v - mean).norm();
+  for (const Vec3& sum : sums) mean += sum / double(grains.size());
+  ways_.resize(grains.size());
+  std::array<double, chunk_count> farthest{};
+  for_chunks(tick.crew, grains.size(), [&](size_t chunk, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      ways_[i] = h * (grains.movers[i].v - mean);
+      farthest[chunk] = std::max(farthest[chunk], ways_[i].norm());
+    }
   });
   const double r = grains.largest_radius, margin = tolerances::grain_margin;
-  const double closing = std::min(2 * std::ranges::max(closes_), tolerances::grain_foresight * r);
-  return cells_.sort(grains, closes_, 2 * r + std::max(margin * r + closing, 2 * margin * r),
+  const double closing = std::min(2 * std::ranges::max(farthest), tolerances::grain_foresight * r);
+  return cells_.sort(grains, ways_, 2 * r + std::max(margin * r + closing, 2 * margin * r),
                      tick.crew);
 }
 
@@ -88,33 +96,29 @@ void GrainPairs::rouse(const GrainTick& tick, GrainField& grains) {
     }
 }
 
+/// Whether their relative motion could close the gap of two grains in h seconds.
+bool GrainPairs::may_meet(const GrainField& grains, uint32_t i, uint32_t j, double h) {
+  const GrainPoint &a = grains.points[i], &b = grains.points[j];
+  const double least = std::min(a.radius, b.radius);
+  const double closing = h * (grains.movers[j].v - grains.movers[i].v).norm();
+  const double reach = a.radius + b.radius + least * tolerances::grain_margin +
+                       std::min(least * tolerances::grain_foresight, closing);
+  return (b.x - a.x).squaredNorm() <= reach * reach;
+}
+
 /// Finds the pairs in which the k-th grain, in the order of cells, has the lower key.
 void GrainPairs::find_of(const GrainField& grains, double h, uint32_t k, Search& search) {
   const uint32_t i = cells_.place(k);
-  const size_t begin = search.found.size();
-  const double r = grains.points[i].radius;
-  const Vec3& x = grains.points[i].x;
   search.partners.clear();
-  for (const uint32_t n :
-       search.near.of(cells_, k, r * tolerances::grain_margin, int32_t(grains.ordinal[i]))) {
+  for (const uint32_t n : search.near.of(cells_, k, 0, int32_t(grains.ordinal[i]))) {
     const uint32_t j = search.near.place(n);
     if (grains.asleep[i] && grains.asleep[j]) continue;
-    const double rj = grains.points[j].radius, least = std::min(r, rj);
-    const double touches = r + rj + least * tolerances::grain_margin;
-    const double foreseen = least * tolerances::grain_foresight;
-    const double square = (grains.points[j].x - x).squaredNorm();
-    if (square > (touches + foreseen) * (touches + foreseen)) continue;
-    // Velocities are read only where they decide, as they are not in the cache.
-    if (square > touches * touches) {
-      const double closing = (grains.movers[j].v - grains.movers[i].v).norm();
-      const double reach = touches + std::min(foreseen, h * closing);
-      if (square > reach * reach) continue;
-    }
+    if ((n & doubtful_grain) != 0 && !may_meet(grains, i, j, h)) continue;
     search.partners.push_back(uint64_t(search.near.ordinal(n)) << 32 | j);
   }
   std::ranges::sort(search.partners);
   for (const uint64_t partner : search.partners) search.found.push_back({i, uint32_t(partner)});
-  counts_[i] = uint32_t(search.found.size() - begin);
+  counts_[i] = uint32_t(search.partners.size());
 }
 
 Status GrainPairs::find(const GrainTick& tick, GrainField& grains, double h, GrainPairList& out) {
@@ -128,11 +132,6 @@ Status GrainPairs::find(const GrainTick& tick, GrainField& grains, double h, Gra
   counts_.assign(grains.size(), 0);
   const auto stirs = [this](size_t c) { return cells_.stirs(c); };
   each_cell(tick.crew, stirs, [&](Search& search, const CellOrder::Cell& cell) {
-    // Grains of the cell have most of them in common as candidates.
-    for (const uint32_t i : search.near.places()) {
-      prefetch(&grains.points[i]);
-      prefetch(&grains.movers[i]);
-    }
     for (uint32_t k = cell.first; k < cell.end; ++k) find_of(grains, h, k, search);
   });
   out.first.resize(grains.size() + 1);

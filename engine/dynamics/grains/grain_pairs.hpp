@@ -40,11 +40,12 @@ class GrainPairs {
   template <class Wants, class F>
   void each_cell(Crew* crew, const Wants& wants, const F& f);
   void rouse(const GrainTick& tick, GrainField& grains);
+  static bool may_meet(const GrainField& grains, uint32_t i, uint32_t j, double h);
   void find_of(const GrainField& grains, double h, uint32_t k, Search& search);
 
   GrainCells cells_;
-  /// By place: how far it may move in the part relative to the mean of all grains [m]
-  std::vector<double> closes_;
+  /// By place: how it may move in the part relative to the mean of all grains [m]
+  std::vector<Vec3> ways_;
   std::vector<uint32_t> counts_;  ///< by place of a: number of pairs
   std::vector<Search> searches_;  ///< by chunk
 };

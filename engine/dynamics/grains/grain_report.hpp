@@ -1,6 +1,7 @@
 #pragma once
 #include "engine/math/types.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,12 @@ namespace tumble {
 struct GrainEffect {
   double work = 0;  ///< [J]
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+
+  void add(const GrainEffect& e) {
+    work += e.work;
+    momentum += e.momentum;
+    angular_momentum += e.angular_momentum;
+  }
 };
 
 struct GrainReport {
@@ -25,6 +32,14 @@ struct GrainReport {
     Vec3 v, omega;
   };
   std::vector<Pushed> bodies;  ///< by ascending slot
+
+  /// Adds the effects of another report, which concern other contacts.
+  void add_effects(const GrainReport& other) {
+    restitution.add(other.restitution);
+    friction.add(other.friction);
+    kinematic.add(other.kinematic);
+    deepest = std::max(deepest, other.deepest);
+  }
 };
 
 }  // namespace tumble

@@ -163,7 +163,7 @@ Status GrainStage::part(const GrainTick& tick, GrainTouches& touches, double t0,
   auto held = shapes_.hold_back(tick, grains_, from_, t0, t1);
   if (!held) return held.error();
   report.held += *held;
-  count(work, report);
+  count(tick.crew, work, report);
   if (stop_requested()) return stopped_error();
   report.deepest =
       std::max(report.deepest, bundles_.read(grains_, memory_.forces(), hs, tick.crew));
@@ -189,11 +189,11 @@ void GrainStage::find_touched(Crew* crew) {
     for (const GrainBodyRow& row : rows) touched_[row.a] = 1;
 }
 
-void GrainStage::count(const GrainPairWork& work, GrainReport& report) const {
+void GrainStage::count(Crew* crew, const GrainPairWork& work, GrainReport& report) const {
   report.contacts = pairs_.all.size() + bodies_.walls().size() + bodies_.held().size();
   report.restitution.work += work.lost;
   report.friction.work += work.rubbed;
-  bodies_.count(report);
+  bodies_.count(crew, report);
 }
 
 /// Adds to the grains' ages, and clears their forces.

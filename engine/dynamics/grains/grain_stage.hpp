@@ -33,7 +33,7 @@ class GrainStage {
   Status part(const GrainTick& tick, GrainTouches& touches, double t0, double t1, int substeps,
               GrainReport& report);
   void find_touched(Crew* crew);
-  void count(const GrainPairWork& work, GrainReport& report) const;
+  void count(Crew* crew, const GrainPairWork& work, GrainReport& report) const;
   void age(const GrainTick& tick) const;
 
   GrainField grains_;

@@ -1,6 +1,9 @@
 // Finds grains near a cell, and near a grain, a vector of them at a time.
 #include "engine/dynamics/grains/near_kernels.hpp"
 
+#include "engine/dynamics/grains/tolerances.hpp"
+#include "engine/dynamics/particles/tolerances.hpp"
+
 // Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -48,7 +51,14 @@ size_t AddNearCell(const GrainColumns& from, uint32_t begin, uint32_t end, const
     hn::StoreU(compress(x), lanes, to.x + size);
     hn::StoreU(compress(y), lanes, to.y + size);
     hn::StoreU(compress(z), lanes, to.z + size);
-    hn::StoreU(compress(hn::LoadU(lanes, from.extent + k)), lanes, to.extent + size);
+    const auto copy = [&](const float* column, float* kept) HWY_ATTR {
+      hn::StoreU(compress(hn::LoadU(lanes, column + k)), lanes, kept + size);
+    };
+    copy(from.extent, to.extent);
+    copy(from.radius, to.radius);
+    copy(from.way_x, to.way_x);
+    copy(from.way_y, to.way_y);
+    copy(from.way_z, to.way_z);
     hn::StoreU(compress(hn::LoadU(places, from.place + k)), places, to.place + size);
     hn::StoreU(compress(hn::LoadU(ordinals, from.ordinal + k)), ordinals, to.ordinal + size);
     size += compress.count();
@@ -62,6 +72,12 @@ size_t FindNear(const GrainsNearCell& among, size_t padded, const NearGrain& gra
   const hn::Rebind<int32_t, decltype(lanes)> ordinals;
   const auto x = hn::Set(lanes, grain.x), y = hn::Set(lanes, grain.y), z = hn::Set(lanes, grain.z),
              extent = hn::Set(lanes, grain.extent);
+  const auto way_x = hn::Set(lanes, grain.way_x), way_y = hn::Set(lanes, grain.way_y),
+             way_z = hn::Set(lanes, grain.way_z), radius = hn::Set(lanes, grain.radius);
+  const auto touches = hn::Set(lanes, grain.radius + grain.more);
+  const auto margin = hn::Set(lanes, float(tolerances::grain_margin)), zero = hn::Zero(lanes);
+  const auto foresight = hn::Set(lanes, float(tolerances::grain_foresight));
+  const auto rounding = hn::Set(lanes, float(tolerances::neighbour_rounding));
   const auto after = hn::Set(ordinals, grain.after);
   size_t found = 0;
   for (size_t k = 0; k < padded; k += hn::Lanes(lanes)) {
@@ -71,11 +87,29 @@ size_t FindNear(const GrainsNearCell& among, size_t padded, const NearGrain& gra
     const auto most = hn::Add(hn::LoadU(lanes, among.extent + k), extent);
     const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
     const auto later = hn::Gt(hn::LoadU(ordinals, among.ordinal + k), after);
-    const auto near = hn::And(hn::RebindMask(places, hn::Le(square, hn::Mul(most, most))),
-                              hn::RebindMask(places, later));
+    // Most grains are farther away than any motion could bring them.
+    const auto coarse = hn::And(hn::RebindMask(places, hn::Le(square, hn::Mul(most, most))),
+                                hn::RebindMask(places, later));
+    if (hn::AllFalse(places, coarse)) continue;
+    const auto wx = hn::Sub(hn::LoadU(lanes, among.way_x + k), way_x);
+    const auto wy = hn::Sub(hn::LoadU(lanes, among.way_y + k), way_y);
+    const auto wz = hn::Sub(hn::LoadU(lanes, among.way_z + k), way_z);
+    const auto way = hn::Sqrt(hn::Add(hn::Add(hn::Mul(wx, wx), hn::Mul(wy, wy)), hn::Mul(wz, wz)));
+    const auto r = hn::LoadU(lanes, among.radius + k);
+    const auto least = hn::Min(r, radius);
+    const auto reach =
+        hn::Add(hn::Add(r, touches),
+                hn::Add(hn::Mul(margin, least), hn::Min(hn::Mul(foresight, least), way)));
+    const auto rounded = hn::Mul(rounding, most);
+    const auto farthest = hn::Add(reach, rounded), sure = hn::Max(hn::Sub(reach, rounded), zero);
+    const auto near =
+        hn::And(coarse, hn::RebindMask(places, hn::Le(square, hn::Mul(farthest, farthest))));
     if (hn::AllFalse(places, near)) continue;
+    const auto doubtful = hn::RebindMask(places, hn::Gt(square, hn::Mul(sure, sure)));
+    const auto index = hn::Or(hn::Iota(places, uint32_t(k)),
+                              hn::IfThenElseZero(doubtful, hn::Set(places, doubtful_grain)));
     const Compressor<decltype(places)> compress(near);
-    hn::StoreU(compress(hn::Iota(places, uint32_t(k))), places, out + found);
+    hn::StoreU(compress(index), places, out + found);
     found += compress.count();
   }
   return found;

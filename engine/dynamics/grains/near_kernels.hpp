@@ -9,6 +9,8 @@ namespace tumble {
 struct GrainColumns {
   const double *x, *y, *z;  ///< [m]
   const float* extent;      ///< radius plus how far the grain may move towards others [m]
+  const float* radius;      ///< [m]
+  const float *way_x, *way_y, *way_z;  ///< motion relative to the mean of all grains [m]
   const uint32_t* place;
   const int32_t* ordinal;
 };
@@ -16,7 +18,7 @@ struct GrainColumns {
 /// Grains near a cell, relative to its centre, padded to a multiple of `grain_batch` with entries
 /// far from everything.
 struct GrainsNearCell {
-  float *x, *y, *z, *extent;  ///< [m]
+  float *x, *y, *z, *extent, *radius, *way_x, *way_y, *way_z;  ///< [m]
   uint32_t* place;
   int32_t* ordinal;
 };
@@ -30,12 +32,18 @@ constexpr size_t grain_batch = 16;
 size_t add_near_cell(const GrainColumns& from, uint32_t begin, uint32_t end, const double* centre,
                      float half, const GrainsNearCell& to, size_t size);
 
-/// A search for grains whose ordinals are above `after`, and whose distance from a point is at most
-/// the sum of their extent and that of the search.
+/// A search for grains whose ordinals are above `after`, and whose distance from this grain is at
+/// most the sum of the radii, of `more`, of grain_margin times the lesser radius, and of their
+/// relative motion up to grain_foresight times the lesser radius.
 struct NearGrain {
-  float x, y, z, extent;  ///< relative to the centre of the cell [m]
+  float x, y, z;                                    ///< relative to the centre of the cell [m]
+  float extent, radius, way_x, way_y, way_z, more;  ///< [m]
   int32_t after;
 };
+
+/// This bit of an index says that the distance is so near the limit that rounding may decide: the
+/// grain may be one that is not searched for.
+constexpr uint32_t doubtful_grain = uint32_t{1} << 31;
 
 /// Writes the indices of the grains found among the first `padded`, in order; returns their number.
 /// `out` must have room for all and one batch.

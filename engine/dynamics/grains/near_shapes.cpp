@@ -211,23 +211,27 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
                                      std::span<const Vec3> from, double t0, double t1) {
   if (parts_.empty()) return size_t{0};
   const double h = t1 - t0;
-  std::vector<uint32_t> who;
-  std::vector<Vec3> start, v;
-  std::vector<double> core;
+  auto& [who, start, v, core, met] = far_;
   const auto went_far = [&](size_t i, NothingKept&, std::vector<uint32_t>& out) {
     const double way = (grains.points[i].x - from[i]).norm();
     const double far = tolerances::grain_looks * grains.points[i].radius;
     if (!grains.asleep[i] && way + longest_way_ * (h / tick.h) > far) out.push_back(uint32_t(i));
   };
   gather_found<NothingKept>(tick.crew, grains.size(), who, went_far);
-  for (const uint32_t i : who) {
-    start.push_back(from[i]);
-    v.push_back((grains.points[i].x - from[i]) / h);
-    core.push_back(tolerances::grain_core * grains.points[i].radius);
-  }
   if (who.empty()) return size_t{0};
+  start.resize(who.size());
+  v.resize(who.size());
+  core.resize(who.size());
+  for_chunks(tick.crew, who.size(), [&](size_t, size_t first, size_t last) {
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t i = who[k];
+      const GrainPoint& at = grains.points[i];
+      start[k] = from[i];
+      v[k] = (at.x - from[i]) / h;
+      core[k] = tolerances::grain_core * at.radius;
+    }
+  });
   std::vector<MovingShape> shapes;
-  std::vector<Motion> motions;
   for (const Part& part : parts_) {
     const BodyShape& shape = tick.bodies.bodies[part.body].shapes[part.shape];
     const Motion whole = motion(tick, part.body);
@@ -236,7 +240,6 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
     shapes.push_back({shape.shape.get(), m});
   }
   finder_.use_threads(tick.crew);
-  std::vector<ParticleShapeMeeting> met;
   if (Status found = finder_.meeting_shapes({{start, core}, v, h}, shapes,
                                             tolerances::grain_met * grains.least_radius, met);
       !found)

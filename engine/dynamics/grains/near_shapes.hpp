@@ -66,6 +66,14 @@ class NearShapes {
     std::vector<uint32_t> near;
   };
 
+  /// Grains that moved far in a part of a tick, and what they met. Scratch memory.
+  struct Far {
+    std::vector<uint32_t> who;   ///< their places
+    std::vector<Vec3> start, v;  ///< [m], [m/s]
+    std::vector<double> core;    ///< radius of the ball that is swept [m]
+    std::vector<ParticleShapeMeeting> met;
+  };
+
   Motion motion(const GrainTick& tick, uint32_t body) const;
   void forget_what_changed(const GrainTick& tick);
   std::vector<Placed> place(const GrainTick& tick, double t0, double t1) const;
@@ -87,6 +95,7 @@ class NearShapes {
   std::vector<Clearance> clear_;  ///< by ordinal
   BoundsTree tree_, moving_tree_;
   ParticleContactFinder finder_;
+  Far far_;
 };
 
 }  // namespace tumble

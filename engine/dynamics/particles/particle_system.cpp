@@ -1,9 +1,12 @@
 #include "engine/dynamics/particles/particle_system.hpp"
 
+#include "engine/core/chunks.hpp"
+#include "engine/dynamics/particles/copy_particles.hpp"
 #include "engine/dynamics/particles/fluid_def.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,26 +14,27 @@ namespace tumble {
 
 namespace {
 
-/// Calls f for every array of a system.
-template <class System, class F>
-void for_arrays(System& p, const F& f) {
-  f(p.x);
-  f(p.v);
-  f(p.force);
-  f(p.mass);
-  f(p.radius);
-  f(p.colour);
-  f(p.age);
-  f(p.life);
-  f(p.born_radius);
-  f(p.born_mass);
-  f(p.emitter);
-  f(p.id);
-  f(p.pressure);
-  if (p.fluid) f(p.density);
+/// Calls f for every array of a system; with several systems, for the same array of each at once.
+/// All have the arrays of the first.
+template <class F, class System, class... More>
+void for_arrays(const F& f, System& p, More&... more) {
+  f(p.x, more.x...);
+  f(p.v, more.v...);
+  f(p.force, more.force...);
+  f(p.mass, more.mass...);
+  f(p.radius, more.radius...);
+  f(p.colour, more.colour...);
+  f(p.age, more.age...);
+  f(p.life, more.life...);
+  f(p.born_radius, more.born_radius...);
+  f(p.born_mass, more.born_mass...);
+  f(p.emitter, more.emitter...);
+  f(p.id, more.id...);
+  f(p.pressure, more.pressure...);
+  if (p.fluid) f(p.density, more.density...);
   if (!p.grains) return;
-  f(p.spin);
-  f(p.rest);
+  f(p.spin, more.spin...);
+  f(p.rest, more.rest...);
 }
 
 }  // namespace
@@ -56,11 +60,11 @@ void ParticleSystem::add(const ParticleDef& def, EmitterId from, double years) {
 }
 
 void ParticleSystem::reserve(size_t count) {
-  for_arrays(*this, [count](auto& array) { array.reserve(count); });
+  for_arrays([count](auto& array) { array.reserve(count); }, *this);
 }
 
 void ParticleSystem::clear() {
-  for_arrays(*this, [](auto& array) { array.clear(); });
+  for_arrays([](auto& array) { array.clear(); }, *this);
 }
 
 void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
@@ -78,7 +82,7 @@ void ParticleSystem::add_copy(const ParticleSystem& from, size_t i) {
 }
 
 void ParticleSystem::remove(std::span<const uint8_t> gone) {
-  for_arrays(*this, [gone](auto& array) {
+  const auto keep_others = [gone](auto& array) {
     size_t kept = 0;
     for (size_t i = 0; i < gone.size(); ++i)
       if (gone[i] == 0) {
@@ -86,7 +90,30 @@ void ParticleSystem::remove(std::span<const uint8_t> gone) {
         ++kept;
       }
     array.resize(kept);
-  });
+  };
+  for_arrays(keep_others, *this);
+}
+
+void copy_particles(ParticleSystem& from, ParticleSystem& to, Crew* crew) {
+  // Everything but the arrays is copied while these are elsewhere; the memory of `to` is kept.
+  const auto exchange = [](auto& a, auto& b) { a.swap(b); };
+  ParticleSystem arrays, memory;
+  std::swap(to, memory);
+  for_arrays(exchange, from, arrays);
+  to = from;
+  for_arrays(exchange, from, arrays);
+  const size_t room = from.x.capacity();
+  const auto copy = [crew, room](const auto& source, auto& copied, auto& kept) {
+    copied.swap(kept);
+    if (copied.capacity() < room) copied.clear();
+    copied.reserve(room);
+    copied.resize(source.size());
+    for_chunks(crew, source.size(), [&](size_t, size_t first, size_t last) {
+      std::copy(source.begin() + ptrdiff_t(first), source.begin() + ptrdiff_t(last),
+                copied.begin() + ptrdiff_t(first));
+    });
+  };
+  for_arrays(copy, from, to, memory);
 }
 
 bool ParticleSystem::mortal() const {
@@ -216,9 +243,10 @@ void ParticleSystem::load(ByteReader& in) {
     vectors(spin);
     vectors(rest);
   }
-  for_arrays(*this, [&](const auto& array) {
+  const auto check_size = [&](const auto& array) {
     if (array.size() != x.size()) in.fail();
-  });
+  };
+  for_arrays(check_size, *this);
 }
 
 void save(ByteWriter& out, const FluidDef& d) {

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int axis_bits = 21;
 constexpr uint64_t axis_mask = (uint64_t{1} << axis_bits) - 1;
+/// Least number of keys that are sorted on several threads: with fewer, tables of digits cost more.
+constexpr size_t least_sorted = 8192;
 /// Offset of coordinates [cells], so that those about the origin do not wrap around.
 constexpr int64_t middle = int64_t{1} << (axis_bits - 1);
 
@@ -46,7 +48,7 @@ size_t hash(uint64_t key) {
 void CellOrder::sort(std::span<const Vec3> points, double size, Crew* crew) {
   size_ = size;
   make_keys(points, crew);
-  sort_keys();
+  sort_keys(crew);
   list_cells(points);
   fill_table();
 }
@@ -54,7 +56,7 @@ void CellOrder::sort(std::span<const Vec3> points, double size, Crew* crew) {
 void CellOrder::line_up(std::span<const Vec3> points, double size, Crew* crew) {
   size_ = size;
   make_keys(points, crew);
-  sort_keys();
+  sort_keys(crew);
   order_.resize(keyed_.size());
   for (size_t p = 0; p < keyed_.size(); ++p) order_[p] = keyed_[p].index;
   cells_.clear();
@@ -73,21 +75,37 @@ void CellOrder::make_keys(std::span<const Vec3> points, Crew* crew) {
   });
 }
 
-void CellOrder::sort_keys() {
+/// Radix sort from the lowest digit, which keeps the order of equal keys; skips digits that are
+/// equal in all. The keys of a chunk with the same digit come after those of the chunks before.
+void CellOrder::sort_keys(Crew* crew) {
   if (std::ranges::is_sorted(keyed_, {}, &Keyed::key)) return;
   uint64_t varying = 0;
   for (const Keyed& k : keyed_) varying |= k.key ^ keyed_[0].key;
-  // Radix sort from the lowest digit, which keeps the order of equal keys; skips digits that are
-  // equal in all.
-  constexpr int digit_bits = 11;
   constexpr uint64_t digit_mask = (1u << digit_bits) - 1;
+  digits_.resize(keyed_.size() < least_sorted ? 1 : chunk_count);
   for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
     if ((varying >> shift & digit_mask) == 0) continue;
-    std::array<uint32_t, 1 << digit_bits> first{};
-    for (const Keyed& k : keyed_) ++first[k.key >> shift & digit_mask];
+    const auto digit = [shift](const Keyed& k) { return size_t(k.key >> shift & digit_mask); };
+    std::array<bool, chunk_count> counted{};
+    const auto count = [&](size_t chunk, size_t first, size_t last) {
+      counted[chunk] = true;
+      digits_[chunk].fill(0);
+      for (size_t p = first; p < last; ++p) ++digits_[chunk][digit(keyed_[p])];
+    };
+    for_chunks(crew, keyed_.size(), count, least_sorted);
+    const auto chunks = std::span(digits_).first(size_t(std::ranges::count(counted, true)));
+    Digits next{};
+    for (const Digits& of : chunks)
+      for (size_t d = 0; d < next.size(); ++d) next[d] += of[d];
     uint32_t sum = 0;
-    for (uint32_t& f : first) sum += std::exchange(f, sum);
-    for (const Keyed& k : keyed_) scratch_[first[k.key >> shift & digit_mask]++] = k;
+    for (uint32_t& place : next) sum += std::exchange(place, sum);
+    for (Digits& of : chunks)
+      for (size_t d = 0; d < next.size(); ++d) next[d] += std::exchange(of[d], next[d]);
+    const auto scatter = [&](size_t chunk, size_t first, size_t last) {
+      Digits& place = digits_[chunk];
+      for (size_t p = first; p < last; ++p) scratch_[place[digit(keyed_[p])]++] = keyed_[p];
+    };
+    for_chunks(crew, keyed_.size(), scatter, least_sorted);
     keyed_.swap(scratch_);
   }
 }

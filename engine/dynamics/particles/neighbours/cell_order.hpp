@@ -39,7 +39,7 @@ class CellOrder {
 
  private:
   void make_keys(std::span<const Vec3> points, Crew* crew);
-  void sort_keys();
+  void sort_keys(Crew* crew);
   void list_cells(std::span<const Vec3> points);
   void fill_table();
   const Cell* find(uint64_t code, int64_t i, int64_t j, int64_t k) const;
@@ -53,6 +53,10 @@ class CellOrder {
     uint32_t index;
   };
   std::vector<Keyed> keyed_, scratch_;
+  static constexpr int digit_bits = 11;
+  /// By digit: number of keys with it; then the place of the next one.
+  using Digits = std::array<uint32_t, 1 << digit_bits>;
+  std::vector<Digits> digits_;  ///< by chunk
 };
 
 }  // namespace tumble
