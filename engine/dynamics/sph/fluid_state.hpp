@@ -40,13 +40,18 @@ struct FluidBodyState {
 using Wrench = FluidPush;
 
 /// A pressure that is sought.
-struct alignas(32) SoughtPressure {
-  float now, before;             ///< [Pa]
-  float stepped;                 ///< before: the end of the step alone [Pa]
-  float residual;                ///< of the pressure before: see PressureSolve [1/s2]
+struct alignas(16) SoughtPressure {
+  float now;                     ///< [Pa]
+  float step;                    ///< that a gradient makes of it [Pa]
+  float residual;                ///< of it: see PressureSolve [1/s2]
   float source;                  ///< [1/s2]
   float diagonal, per_diagonal;  ///< [m3/(kg m2)], and one over it; 0: none
   float volume;                  ///< [volume units]
+  /// Of the last iteration and the one before it [Pa].
+  struct Change {
+    float pressure = 0, step = 0;
+  };
+  Change changes[2];
 };
 
 /// What the pressure solve is made of: see pressure_sums. By place.

@@ -247,15 +247,16 @@ class PressureForces {
 
 /// Finds pressures such that no share is too large by more than the error in the mean, which is
 /// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place. By
-/// projected gradients along the diagonal with Nesterov's acceleration, which begins anew where it
-/// leads uphill (O'Donoghue and Candes, "Adaptive restart for accelerated gradient schemes", 2015).
-/// Steps are as long as the stiffest wave of a lattice allows; where the error grows, also what
-/// Rayleigh's quotient of the last step says: beside walls, and where particles lie closely, there
-/// are stiffer ones. Gives the number of iterations.
+/// projected gradients along the diagonal with Anderson's acceleration (Walker and Ni, "Anderson
+/// acceleration for fixed-point iterations", 2011; Mai and Johansson, "Anderson acceleration of
+/// proximal gradient methods", 2020): of all combinations of the last pressures whose weights sum
+/// to one, the one whose step would be shortest if steps were linear, and that step. Where no
+/// pressure comes to be zero these are minimal residuals, and unlike conjugate gradients they need
+/// no product besides that with the pressures themselves where some do.
 ///
-/// As soon as the residual of a particle is known it steps on. What the sums over all residuals say
-/// of the steps' length and of hills therefore comes an iteration later, and the pressures at which
-/// the iterations end are those before the last step.
+/// Steps are as long as the stiffest wave of a lattice allows; where the error grows, also what
+/// Rayleigh's quotient of the last change says: beside walls, and where particles lie closely,
+/// there are stiffer ones. Gives the number of iterations.
 class PressureSolve {
  public:
   /// `error`: where iterations end, as a share of density [-].
@@ -272,69 +273,102 @@ class PressureSolve {
     s.each([&](size_t p) {
       const auto own = float(pressure[p]), diagonal = float(forces.diagonal(p));
       const auto volume = float(s.kernel.scale() * s.volume[p]);
-      sought_[p] = {own,   own, own, 0, float(source[p]), diagonal, diagonal > 0 ? 1 / diagonal : 0,
-                    volume};
+      sought_[p] = {own,    0, 0, float(source[p]), diagonal, diagonal > 0 ? 1 / diagonal : 0,
+                    volume, {}};
       weights_[p] = volume * own;
     });
   }
 
   int run() {
     s_.each([&](size_t p) { forces_.press(p); });
-    double momentum = 1;
+    PassSums sums;
     for (int iterations = 0;; ++iterations) {
       forces_.find([&](size_t p) { return double(sought_[p].now); });
-      const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
-      const PassSums sums = pass((momentum - 1) / next);
+      const double last = sums.square[0];
+      sums = pass(iterations == 0);
       const double error = s_.h * s_.h * sums.wrong / double(s_.size());
       if (iterations > 0 && error > s_.report.density_error) note_stiffness(sums);
       s_.report.density_error = error;
       if (trace_) note(iterations, error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (error <= error_ || iterations >= s_.common.most_iterations || stop_requested()) {
-        s_.each([&](size_t p) { pressure_[p] = double(sought_[p].before); });
+        s_.each([&](size_t p) { pressure_[p] = double(sought_[p].now); });
         return iterations;
       }
-      momentum = sums.along < 0 ? 1 : next;
+      sums.square[1] = last;
+      step_on(shortest(sums));
     }
   }
 
  private:
+  /// Inner products are those of M = volumes times diagonals. Of the last change of pressures and
+  /// the one before it, by how much steps changed with them:
   struct PassSums {
     double wrong = 0;  ///< how far pressures are from the solution [1/s2]
-    double along = 0;  ///< of the step along the way since the last one; below zero uphill
+    double square[2] = {0, 0}, product = 0;
+    double along[2] = {0, 0};    ///< with the step
     double bent = 0, moved = 0;  ///< Rayleigh's quotient of the change of pressures
   };
+  /// How much of the last two changes of pressures is taken back [-].
+  using Shares = std::array<float, 2>;
+
   /// How far from its solution a pressure is: excess, or pressure that is more than it takes.
   static float wrong(const SoughtPressure& of) {
-    return of.residual > 0 ? of.residual : std::min(-of.residual, of.diagonal * of.before);
+    return of.residual > 0 ? of.residual : std::min(-of.residual, of.diagonal * of.now);
   }
-  /// A step along the gradient, and `keep` of the way from the last step's end to its end.
-  PassSums pass(double keep) {
-    const auto length = float(tolerances::gradient_step / s_.stiffest), kept = float(keep);
+  /// Residuals and steps of the pressures whose flows were found; the first ones changed nothing.
+  PassSums pass(bool first) {
+    const auto length = float(tolerances::gradient_step / s_.stiffest);
     std::array<PassSums, chunk_count> parts{};
     forces_.open([&](size_t chunk, size_t p, double rate) {
       SoughtPressure& of = sought_[p];
       PassSums& sums = parts[chunk];
-      const float residual = of.source + float(rate), change = of.now - of.before;
+      const float residual = of.source + float(rate), change = of.changes[0].pressure;
       sums.bent += double(of.volume * change * (of.residual - residual));
       sums.moved += double(of.volume * of.diagonal * change * change);
       of.residual = residual;
-      of.before = of.now;
       sums.wrong += double(wrong(of));
-      const float stepped = std::max(0.0f, of.now + length * residual * of.per_diagonal);
-      const float way = stepped - of.stepped;
-      sums.along += double(of.volume * residual * way);
-      of.stepped = stepped;
-      of.now = std::max(0.0f, stepped + kept * way);
-      weights_[p] = of.volume * of.now;
-      forces_.press(p);
+      const float step = std::max(0.0f, of.now + length * residual * of.per_diagonal) - of.now;
+      of.changes[0].step = first ? 0 : step - of.step;
+      of.step = step;
+      const float mass = of.volume * of.diagonal, last = mass * of.changes[0].step,
+                  before = mass * of.changes[1].step;
+      sums.square[0] += double(last * of.changes[0].step);
+      sums.product += double(last * of.changes[1].step);
+      sums.along[0] += double(last * step);
+      sums.along[1] += double(before * step);
     });
     PassSums total;
     for (const PassSums& part : parts) {
-      total.wrong += part.wrong, total.along += part.along;
+      total.wrong += part.wrong, total.product += part.product;
       total.bent += part.bent, total.moved += part.moved;
+      for (size_t k = 0; k < 2; ++k)
+        total.square[k] += part.square[k], total.along[k] += part.along[k];
     }
     return total;
+  }
+  /// Which shares leave the shortest step, by the normal equations.
+  static Shares shortest(const PassSums& sums) {
+    const double a = sums.square[0], b = sums.square[1], c = sums.product;
+    const double determinant = a * b - c * c;
+    if (determinant > tolerances::least_angle * a * b)
+      return {float((b * sums.along[0] - c * sums.along[1]) / determinant),
+              float((a * sums.along[1] - c * sums.along[0]) / determinant)};
+    return {a > 0 ? float(sums.along[0] / a) : 0, 0};
+  }
+  void step_on(const Shares& shares) {
+    s_.each([&](size_t p) {
+      SoughtPressure& of = sought_[p];
+      float next = of.now + of.step;
+      for (size_t k = 0; k < 2; ++k)
+        next -= shares[k] * (of.changes[k].pressure + of.changes[k].step);
+      next = std::max(0.0f, next);
+      of.changes[1] = of.changes[0];
+      of.changes[0].pressure = next - of.now;
+      of.now = next;
+      weights_[p] = of.volume * next;
+      forces_.press(p);
+    });
   }
   void note_stiffness(const PassSums& sums) {
     if (sums.bent > s_.stiffest * sums.moved && sums.moved > 0)
