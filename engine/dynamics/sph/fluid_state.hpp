@@ -64,7 +64,8 @@ struct PressureOperands {
   /// The sums of a particle's own gradients and those of walls, over its volume, and as w its
   /// volume over density and length unit [m2/kg].
   std::vector<SingleVector> gradients;
-  std::vector<float> volumes;  ///< [volume units]
+  std::vector<float> volumes;        ///< [volume units]
+  std::vector<SingleVector> moving;  ///< velocities over the sub-step, times volumes
   std::vector<SoughtPressure> sought;
   std::vector<float> weights;                        ///< pressures times volumes [Pa volume units]
   std::vector<SymmetricRow<double>> exact_stresses;  ///< [Pa m3]

@@ -1,5 +1,5 @@
 // Pressures p >= 0 of the particles of an incompressible fluid. With D the operator that makes
-// rates of shares of velocities (PressureForces::find_rates), V D^T p are the forces of pressures,
+// rates of shares of velocities (PressureForces::open), V D^T p are the forces of pressures,
 // so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are
 // the nearest to those before that are allowed, and have no more energy.
 //
@@ -90,17 +90,16 @@ class PressureForces {
     });
   }
 
-  /// Rates of shares by the velocities that are [1/s]; of corrected sums minus their divergence:
-  /// fluid behind a wall moves as the mirror image.
-  void find_rates(std::vector<double>& rates) {
+  /// From now on flows are those of the velocities, too, as if they were accelerations that last
+  /// for the sub-step; adds to `source` what walls that move make of it [1/s2]: fluid behind a wall
+  /// moves as the mirror image.
+  void take_velocities(std::vector<double>& source) {
     FluidState& s = s_;
-    s.each([&](size_t p) { to_.rows[p].flow = single(double(to_.volumes[p]) * s.v[p], 0); });
-    rates.resize(s.size());
-    each_opened([&](size_t, size_t p, float found) {
-      double rate = double(found);
+    to_.moving.resize(s.size());
+    s.each([&](size_t p) {
+      to_.moving[p] = single(double(to_.volumes[p]) / s.h * s.v[p], 0);
       for (const WallTouch& t : s.touches_of(p))
-        rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t));
-      rates[p] = rate;
+        source[p] -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t)) / s.h;
     });
   }
 
@@ -111,7 +110,7 @@ class PressureForces {
     else
       to_.pushes[p].weight = to_.weights[p];
   }
-  /// Flows by what particles are pushed by, and of bodies by pressures pressure(p).
+  /// Flows, and what bodies do, by the velocities and by pressures pressure(p).
   template <class F>
   void find(const F& pressure) {
     s_.each_batch<SingleVector>(
@@ -127,6 +126,8 @@ class PressureForces {
           SingleVector& flow = to_.rows[p].flow;
           flow = {-g.w * (sum.x + w * g.x), -g.w * (sum.y + w * g.y), -g.w * (sum.z + w * g.z), 0};
           if (corrected_ && touched(p)) lever(p, flow);
+          const SingleVector& u = to_.moving[p];
+          flow.x += u.x, flow.y += u.y, flow.z += u.z;
         });
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies(pressure);
@@ -135,13 +136,21 @@ class PressureForces {
   /// f(chunk, p, rate of change of the particle's rate by the flows [1/s2]).
   template <class F>
   void open(const F& f) {
-    each_opened([&](size_t chunk, size_t p, float found) {
-      f(chunk, p, double(found) + opened_by_bodies(p));
-    });
+    const auto per_unit = float(1 / s_.kernel.reach());
+    s_.each_batch<float>(
+        [&](size_t first, size_t end, float* sums) {
+          open_groups(s_.pairs, first, end, to_.rows.data(),
+                      corrected_ ? to_.corrections.data() : nullptr, sums);
+        },
+        [&](size_t chunk, size_t p, float sum) {
+          const SingleVector &u = to_.rows[p].flow, &g = to_.gradients[p];
+          const float found = per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - sum);
+          f(chunk, p, double(found) + opened_by_bodies(p));
+        });
   }
-  /// By the flows [m/s2].
+  /// By pressures [m/s2].
   Vec3 acceleration(size_t p) const {
-    return 1 / double(to_.volumes[p]) * vector(to_.rows[p].flow);
+    return 1 / double(to_.volumes[p]) * (vector(to_.rows[p].flow) - vector(to_.moving[p]));
   }
   double diagonal(size_t p) const { return corrected_ ? s_.corrected_diagonal[p] : s_.diagonal[p]; }
 
@@ -188,23 +197,10 @@ class PressureForces {
       s.acceleration.set(p, -(1 / s.density[p]) * force);
     });
   }
-  /// f(chunk, p, rate by the flows).
-  template <class F>
-  void each_opened(const F& f) {
-    const auto per_unit = float(1 / s_.kernel.reach());
-    s_.each_batch<float>(
-        [&](size_t first, size_t end, float* sums) {
-          open_groups(s_.pairs, first, end, to_.rows.data(),
-                      corrected_ ? to_.corrections.data() : nullptr, sums);
-        },
-        [&](size_t chunk, size_t p, float sum) {
-          const SingleVector &u = to_.rows[p].flow, &g = to_.gradients[p];
-          f(chunk, p, per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - sum));
-        });
-  }
   /// Adds to a flow what walls do.
   void lever(size_t p, SingleVector& flow) {
-    const Vec3 more = double(to_.volumes[p]) * levered(p, acceleration(p));
+    const double volume = double(to_.volumes[p]);
+    const Vec3 more = volume * levered(p, 1 / volume * vector(flow));
     flow = {flow.x + float(more[0]), flow.y + float(more[1]), flow.z + float(more[2]), 0};
   }
   bool touched(size_t p) const { return s_.first_touch[p] != s_.first_touch[p + 1]; }
@@ -402,10 +398,10 @@ void solve_pressure(FluidState& s) {
   PressureForces forces(s, s.corrects() ? Sums::corrected : Sums::of_shares, true);
   forces.take_operands();
   std::vector<double>& source = s.pressure_operands.source;
-  forces.find_rates(source);
+  source.resize(s.size());
   // Where there is room, the fluid may use it up.
-  s.each(
-      [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
+  s.each([&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h); });
+  forces.take_velocities(source);
   const double error = tolerances::rate_share * s.common.density_error;
   s.report.pressure_iterations +=
       PressureSolve(s, source, s.pressure, forces, error, s.trace ? &s.trace->pressure : nullptr)
@@ -423,8 +419,8 @@ void shift_particles(FluidState& s) {
   PressureForces forces(s, Sums::of_shares, false);
   forces.take_operands();
   std::vector<double>& source = s.pressure_operands.source;
-  forces.find_rates(source);
-  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
+  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h); });
+  forces.take_velocities(source);
   s.report.shift_iterations +=
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)
