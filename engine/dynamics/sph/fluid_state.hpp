@@ -40,13 +40,18 @@ struct FluidBodyState {
 using Wrench = FluidPush;
 
 /// A pressure that is sought.
-struct alignas(32) SoughtPressure {
-  float now, before;             ///< [Pa]
-  float stepped;                 ///< before: the end of the step alone [Pa]
-  float residual;                ///< of the pressure before: see PressureSolve [1/s2]
+struct alignas(16) SoughtPressure {
+  float now;                     ///< [Pa]
+  float step;                    ///< that a gradient makes of it [Pa]
+  float residual;                ///< of it: see PressureSolve [1/s2]
   float source;                  ///< [1/s2]
   float diagonal, per_diagonal;  ///< [m3/(kg m2)], and one over it; 0: none
   float volume;                  ///< [volume units]
+  /// Of the last iteration and the one before it [Pa].
+  struct Change {
+    float pressure = 0, step = 0;
+  };
+  Change changes[2];
 };
 
 /// What the pressure solve is made of: see pressure_sums. By place.
@@ -59,7 +64,8 @@ struct PressureOperands {
   /// The sums of a particle's own gradients and those of walls, over its volume, and as w its
   /// volume over density and length unit [m2/kg].
   std::vector<SingleVector> gradients;
-  std::vector<float> volumes;  ///< [volume units]
+  std::vector<float> volumes;        ///< [volume units]
+  std::vector<SingleVector> moving;  ///< velocities over the sub-step, times volumes
   std::vector<SoughtPressure> sought;
   std::vector<float> weights;                        ///< pressures times volumes [Pa volume units]
   std::vector<SymmetricRow<double>> exact_stresses;  ///< [Pa m3]

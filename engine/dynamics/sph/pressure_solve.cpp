@@ -1,5 +1,5 @@
 // Pressures p >= 0 of the particles of an incompressible fluid. With D the operator that makes
-// rates of shares of velocities (PressureForces::find_rates), V D^T p are the forces of pressures,
+// rates of shares of velocities (PressureForces::open), V D^T p are the forces of pressures,
 // so that D M^-1 D^T is symmetric, with the bodies' masses in M: the velocities that they leave are
 // the nearest to those before that are allowed, and have no more energy.
 //
@@ -90,17 +90,16 @@ class PressureForces {
     });
   }
 
-  /// Rates of shares by the velocities that are [1/s]; of corrected sums minus their divergence:
-  /// fluid behind a wall moves as the mirror image.
-  void find_rates(std::vector<double>& rates) {
+  /// From now on flows are those of the velocities, too, as if they were accelerations that last
+  /// for the sub-step; adds to `source` what walls that move make of it [1/s2]: fluid behind a wall
+  /// moves as the mirror image.
+  void take_velocities(std::vector<double>& source) {
     FluidState& s = s_;
-    s.each([&](size_t p) { to_.rows[p].flow = single(double(to_.volumes[p]) * s.v[p], 0); });
-    rates.resize(s.size());
-    each_opened([&](size_t, size_t p, float found) {
-      double rate = double(found);
+    to_.moving.resize(s.size());
+    s.each([&](size_t p) {
+      to_.moving[p] = single(double(to_.volumes[p]) / s.h * s.v[p], 0);
       for (const WallTouch& t : s.touches_of(p))
-        rate -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t));
-      rates[p] = rate;
+        source[p] -= s.bodies[t.body].velocity_at(s.x(p)).dot(gradient(t)) / s.h;
     });
   }
 
@@ -111,7 +110,7 @@ class PressureForces {
     else
       to_.pushes[p].weight = to_.weights[p];
   }
-  /// Flows by what particles are pushed by, and of bodies by pressures pressure(p).
+  /// Flows, and what bodies do, by the velocities and by pressures pressure(p).
   template <class F>
   void find(const F& pressure) {
     s_.each_batch<SingleVector>(
@@ -127,6 +126,8 @@ class PressureForces {
           SingleVector& flow = to_.rows[p].flow;
           flow = {-g.w * (sum.x + w * g.x), -g.w * (sum.y + w * g.y), -g.w * (sum.z + w * g.z), 0};
           if (corrected_ && touched(p)) lever(p, flow);
+          const SingleVector& u = to_.moving[p];
+          flow.x += u.x, flow.y += u.y, flow.z += u.z;
         });
     if (!bodies_yield_) return;
     const std::vector<Wrench> forces = on_bodies(pressure);
@@ -135,13 +136,21 @@ class PressureForces {
   /// f(chunk, p, rate of change of the particle's rate by the flows [1/s2]).
   template <class F>
   void open(const F& f) {
-    each_opened([&](size_t chunk, size_t p, float found) {
-      f(chunk, p, double(found) + opened_by_bodies(p));
-    });
+    const auto per_unit = float(1 / s_.kernel.reach());
+    s_.each_batch<float>(
+        [&](size_t first, size_t end, float* sums) {
+          open_groups(s_.pairs, first, end, to_.rows.data(),
+                      corrected_ ? to_.corrections.data() : nullptr, sums);
+        },
+        [&](size_t chunk, size_t p, float sum) {
+          const SingleVector &u = to_.rows[p].flow, &g = to_.gradients[p];
+          const float found = per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - sum);
+          f(chunk, p, double(found) + opened_by_bodies(p));
+        });
   }
-  /// By the flows [m/s2].
+  /// By pressures [m/s2].
   Vec3 acceleration(size_t p) const {
-    return 1 / double(to_.volumes[p]) * vector(to_.rows[p].flow);
+    return 1 / double(to_.volumes[p]) * (vector(to_.rows[p].flow) - vector(to_.moving[p]));
   }
   double diagonal(size_t p) const { return corrected_ ? s_.corrected_diagonal[p] : s_.diagonal[p]; }
 
@@ -188,23 +197,10 @@ class PressureForces {
       s.acceleration.set(p, -(1 / s.density[p]) * force);
     });
   }
-  /// f(chunk, p, rate by the flows).
-  template <class F>
-  void each_opened(const F& f) {
-    const auto per_unit = float(1 / s_.kernel.reach());
-    s_.each_batch<float>(
-        [&](size_t first, size_t end, float* sums) {
-          open_groups(s_.pairs, first, end, to_.rows.data(),
-                      corrected_ ? to_.corrections.data() : nullptr, sums);
-        },
-        [&](size_t chunk, size_t p, float sum) {
-          const SingleVector &u = to_.rows[p].flow, &g = to_.gradients[p];
-          f(chunk, p, per_unit * (((u.x * g.x + u.y * g.y) + u.z * g.z) - sum));
-        });
-  }
   /// Adds to a flow what walls do.
   void lever(size_t p, SingleVector& flow) {
-    const Vec3 more = double(to_.volumes[p]) * levered(p, acceleration(p));
+    const double volume = double(to_.volumes[p]);
+    const Vec3 more = volume * levered(p, 1 / volume * vector(flow));
     flow = {flow.x + float(more[0]), flow.y + float(more[1]), flow.z + float(more[2]), 0};
   }
   bool touched(size_t p) const { return s_.first_touch[p] != s_.first_touch[p + 1]; }
@@ -247,15 +243,16 @@ class PressureForces {
 
 /// Finds pressures such that no share is too large by more than the error in the mean, which is
 /// h^2 (source + opening), and where there is pressure none too small; `source` [1/s2] by place. By
-/// projected gradients along the diagonal with Nesterov's acceleration, which begins anew where it
-/// leads uphill (O'Donoghue and Candes, "Adaptive restart for accelerated gradient schemes", 2015).
-/// Steps are as long as the stiffest wave of a lattice allows; where the error grows, also what
-/// Rayleigh's quotient of the last step says: beside walls, and where particles lie closely, there
-/// are stiffer ones. Gives the number of iterations.
+/// projected gradients along the diagonal with Anderson's acceleration (Walker and Ni, "Anderson
+/// acceleration for fixed-point iterations", 2011; Mai and Johansson, "Anderson acceleration of
+/// proximal gradient methods", 2020): of all combinations of the last pressures whose weights sum
+/// to one, the one whose step would be shortest if steps were linear, and that step. Where no
+/// pressure comes to be zero these are minimal residuals, and unlike conjugate gradients they need
+/// no product besides that with the pressures themselves where some do.
 ///
-/// As soon as the residual of a particle is known it steps on. What the sums over all residuals say
-/// of the steps' length and of hills therefore comes an iteration later, and the pressures at which
-/// the iterations end are those before the last step.
+/// Steps are as long as the stiffest wave of a lattice allows; where the error grows, also what
+/// Rayleigh's quotient of the last change says: beside walls, and where particles lie closely,
+/// there are stiffer ones. Gives the number of iterations.
 class PressureSolve {
  public:
   /// `error`: where iterations end, as a share of density [-].
@@ -272,69 +269,102 @@ class PressureSolve {
     s.each([&](size_t p) {
       const auto own = float(pressure[p]), diagonal = float(forces.diagonal(p));
       const auto volume = float(s.kernel.scale() * s.volume[p]);
-      sought_[p] = {own,   own, own, 0, float(source[p]), diagonal, diagonal > 0 ? 1 / diagonal : 0,
-                    volume};
+      sought_[p] = {own,    0, 0, float(source[p]), diagonal, diagonal > 0 ? 1 / diagonal : 0,
+                    volume, {}};
       weights_[p] = volume * own;
     });
   }
 
   int run() {
     s_.each([&](size_t p) { forces_.press(p); });
-    double momentum = 1;
+    PassSums sums;
     for (int iterations = 0;; ++iterations) {
       forces_.find([&](size_t p) { return double(sought_[p].now); });
-      const double next = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
-      const PassSums sums = pass((momentum - 1) / next);
+      const double last = sums.square[0];
+      sums = pass(iterations == 0);
       const double error = s_.h * s_.h * sums.wrong / double(s_.size());
       if (iterations > 0 && error > s_.report.density_error) note_stiffness(sums);
       s_.report.density_error = error;
       if (trace_) note(iterations, error);
       // What was stopped is thrown away by who asked for it, at the next sub-step.
       if (error <= error_ || iterations >= s_.common.most_iterations || stop_requested()) {
-        s_.each([&](size_t p) { pressure_[p] = double(sought_[p].before); });
+        s_.each([&](size_t p) { pressure_[p] = double(sought_[p].now); });
         return iterations;
       }
-      momentum = sums.along < 0 ? 1 : next;
+      sums.square[1] = last;
+      step_on(shortest(sums));
     }
   }
 
  private:
+  /// Inner products are those of M = volumes times diagonals. Of the last change of pressures and
+  /// the one before it, by how much steps changed with them:
   struct PassSums {
     double wrong = 0;  ///< how far pressures are from the solution [1/s2]
-    double along = 0;  ///< of the step along the way since the last one; below zero uphill
+    double square[2] = {0, 0}, product = 0;
+    double along[2] = {0, 0};    ///< with the step
     double bent = 0, moved = 0;  ///< Rayleigh's quotient of the change of pressures
   };
+  /// How much of the last two changes of pressures is taken back [-].
+  using Shares = std::array<float, 2>;
+
   /// How far from its solution a pressure is: excess, or pressure that is more than it takes.
   static float wrong(const SoughtPressure& of) {
-    return of.residual > 0 ? of.residual : std::min(-of.residual, of.diagonal * of.before);
+    return of.residual > 0 ? of.residual : std::min(-of.residual, of.diagonal * of.now);
   }
-  /// A step along the gradient, and `keep` of the way from the last step's end to its end.
-  PassSums pass(double keep) {
-    const auto length = float(tolerances::gradient_step / s_.stiffest), kept = float(keep);
+  /// Residuals and steps of the pressures whose flows were found; the first ones changed nothing.
+  PassSums pass(bool first) {
+    const auto length = float(tolerances::gradient_step / s_.stiffest);
     std::array<PassSums, chunk_count> parts{};
     forces_.open([&](size_t chunk, size_t p, double rate) {
       SoughtPressure& of = sought_[p];
       PassSums& sums = parts[chunk];
-      const float residual = of.source + float(rate), change = of.now - of.before;
+      const float residual = of.source + float(rate), change = of.changes[0].pressure;
       sums.bent += double(of.volume * change * (of.residual - residual));
       sums.moved += double(of.volume * of.diagonal * change * change);
       of.residual = residual;
-      of.before = of.now;
       sums.wrong += double(wrong(of));
-      const float stepped = std::max(0.0f, of.now + length * residual * of.per_diagonal);
-      const float way = stepped - of.stepped;
-      sums.along += double(of.volume * residual * way);
-      of.stepped = stepped;
-      of.now = std::max(0.0f, stepped + kept * way);
-      weights_[p] = of.volume * of.now;
-      forces_.press(p);
+      const float step = std::max(0.0f, of.now + length * residual * of.per_diagonal) - of.now;
+      of.changes[0].step = first ? 0 : step - of.step;
+      of.step = step;
+      const float mass = of.volume * of.diagonal, last = mass * of.changes[0].step,
+                  before = mass * of.changes[1].step;
+      sums.square[0] += double(last * of.changes[0].step);
+      sums.product += double(last * of.changes[1].step);
+      sums.along[0] += double(last * step);
+      sums.along[1] += double(before * step);
     });
     PassSums total;
     for (const PassSums& part : parts) {
-      total.wrong += part.wrong, total.along += part.along;
+      total.wrong += part.wrong, total.product += part.product;
       total.bent += part.bent, total.moved += part.moved;
+      for (size_t k = 0; k < 2; ++k)
+        total.square[k] += part.square[k], total.along[k] += part.along[k];
     }
     return total;
+  }
+  /// Which shares leave the shortest step, by the normal equations.
+  static Shares shortest(const PassSums& sums) {
+    const double a = sums.square[0], b = sums.square[1], c = sums.product;
+    const double determinant = a * b - c * c;
+    if (determinant > tolerances::least_angle * a * b)
+      return {float((b * sums.along[0] - c * sums.along[1]) / determinant),
+              float((a * sums.along[1] - c * sums.along[0]) / determinant)};
+    return {a > 0 ? float(sums.along[0] / a) : 0, 0};
+  }
+  void step_on(const Shares& shares) {
+    s_.each([&](size_t p) {
+      SoughtPressure& of = sought_[p];
+      float next = of.now + of.step;
+      for (size_t k = 0; k < 2; ++k)
+        next -= shares[k] * (of.changes[k].pressure + of.changes[k].step);
+      next = std::max(0.0f, next);
+      of.changes[1] = of.changes[0];
+      of.changes[0].pressure = next - of.now;
+      of.now = next;
+      weights_[p] = of.volume * next;
+      forces_.press(p);
+    });
   }
   void note_stiffness(const PassSums& sums) {
     if (sums.bent > s_.stiffest * sums.moved && sums.moved > 0)
@@ -368,10 +398,10 @@ void solve_pressure(FluidState& s) {
   PressureForces forces(s, s.corrects() ? Sums::corrected : Sums::of_shares, true);
   forces.take_operands();
   std::vector<double>& source = s.pressure_operands.source;
-  forces.find_rates(source);
+  source.resize(s.size());
   // Where there is room, the fluid may use it up.
-  s.each(
-      [&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
+  s.each([&](size_t p) { source[p] = std::min(0.0, s.share[p] - 1) / (s.h * s.h); });
+  forces.take_velocities(source);
   const double error = tolerances::rate_share * s.common.density_error;
   s.report.pressure_iterations +=
       PressureSolve(s, source, s.pressure, forces, error, s.trace ? &s.trace->pressure : nullptr)
@@ -389,8 +419,8 @@ void shift_particles(FluidState& s) {
   PressureForces forces(s, Sums::of_shares, false);
   forces.take_operands();
   std::vector<double>& source = s.pressure_operands.source;
-  forces.find_rates(source);
-  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h) + source[p] / s.h; });
+  s.each([&](size_t p) { source[p] = (s.share[p] - 1) / (s.h * s.h); });
+  forces.take_velocities(source);
   s.report.shift_iterations +=
       PressureSolve(s, source, s.shift_pressure, forces, s.common.density_error,
                     s.trace ? &s.trace->shift : nullptr)

@@ -26,18 +26,16 @@ double layers_across(const SmoothingKernel& kernel, double spacing) {
 void pull_surfaces(FluidState& s) {
   if (!s.any(&FluidDef::surface_tension)) return;
   const double across = layers_across(s.kernel, s.spacing);
-  std::vector<double> root(s.size());  // of A
-  s.each([&](size_t p) {
-    root[p] = std::sqrt(2 * s.def(p).surface_tension / across);
-    s.terms.put(p, pressing(s, p, root[p]));
-  });
+  // Of A.
+  const auto root = [&](size_t p) { return std::sqrt(2 * s.def(p).surface_tension / across); };
+  s.each([&](size_t p) { s.terms.put(p, pressing(s, p, root(p))); });
   // A wall's gradient is that of a mirror image, which moves twice as much as a wall does.
-  const auto of_wall = [&](size_t p) { return 0.5 * s.def(p).adhesion * root[p] * root[p]; };
+  const auto of_wall = [&](size_t p) { return 0.5 * s.def(p).adhesion * root(p) * root(p); };
   s.each_with_pairs(FluidFactor::slope, s.terms, nullptr, [&](size_t p, const FluidVector& sum) {
     Vec3 walls = Vec3::Zero();
     for (const WallTouch& t : s.touches_of(p)) walls += t.gradient;
     const Vec3 pairs = pressed(s, p, sum);
-    s.acceleration.set(p, (root[p] * pairs + of_wall(p) * walls) / s.density[p]);
+    s.acceleration.set(p, (root(p) * pairs + of_wall(p) * walls) / s.density[p]);
   });
   std::vector<Wrench> impulses = s.sum_wrenches([&](size_t p, std::span<Wrench> to) {
     for (const WallTouch& t : s.touches_of(p))

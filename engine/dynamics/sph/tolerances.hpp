@@ -38,9 +38,12 @@ inline constexpr double list_skin = 0.1;
 /// in the nearest cache.
 inline constexpr size_t batch_groups = 16;
 
-/// Steps of the pressure solve, times the largest eigenvalue over the diagonal [-]: accelerated
-/// gradients are stable up to 4/3 where their momentum is nearly 1.
+/// Steps of the pressure solve, times the largest eigenvalue over the diagonal [-]: alone they are
+/// stable below 2, and there are stiffer waves than the stiffest one of a lattice.
 inline constexpr double gradient_step = 1.2;
+/// The square of the sine of the angle between two changes of steps, below which they count as one
+/// [-]: what is left of their sums in single precision is then rounding.
+inline constexpr double least_angle = 1e-6;
 /// Lengths of waves among which the stiffest one of a lattice is sought [-]: its eigenvalue is flat
 /// there.
 inline constexpr int waves_of_lattice = 64;

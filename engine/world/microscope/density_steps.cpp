@@ -120,8 +120,8 @@ std::string DensityRecorder::caption(const FluidTrace::Solve& solve, bool shift,
                                          "iterations came first");
   return fmt::format(
       "Each particle's pressure goes along its own error, over how much that "
-      "pressure opens it, and on by a share of the last way (Nesterov). Bodies "
-      "yield. The mean error is {:.3g} %.",
+      "pressure opens it, from that mixture of the last pressures which leaves the "
+      "shortest way to go (Anderson). Bodies yield. The mean error is {:.3g} %.",
       error);
 }
 
