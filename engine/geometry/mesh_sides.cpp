@@ -46,4 +46,17 @@ std::vector<MeshSide> sorted_sides(const TriangleMesh& mesh) {
   return sides;
 }
 
+EdgeFaults edge_faults(const TriangleMesh& mesh) {
+  EdgeFaults out;
+  const std::vector<MeshSide> sides = sorted_sides(mesh);
+  for (size_t i = 0, end = 0; i < sides.size(); i = end) {
+    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high)
+      ++end;
+    out.open += end - i == 1;
+    out.non_manifold += end - i > 2;
+    out.misoriented += end - i == 2 && sides[i].forward == sides[i + 1].forward;
+  }
+  return out;
+}
+
 }  // namespace tumble

@@ -17,6 +17,7 @@
 #include <numbers>
 
 #include <doctest/doctest.h>
+#include <hwy/targets.h>
 
 using namespace tumble;
 
@@ -259,6 +260,27 @@ TEST_CASE("any number of threads builds the same field, and 16 bits take half of
   REQUIRE(small.ok());
   CHECK(small->report().bits == 32);
   CHECK(small->report().node_error < 1e-6 * tree.bounds().extent().norm());
+}
+
+TEST_CASE("every instruction set builds the same field") {
+  // Triangles smaller than cells, larger than blocks, and so narrow that they are measured alone.
+  TriangleMesh mesh = at(make_mesh::icosphere(0.2, 4), {0.3, 0.5, 0});
+  append(mesh, at(make_mesh::box({0.5, 0.1, 0.4}), Vec3::Zero(), axis_angle(Vec3::UnitX(), 0.2)));
+  append(mesh, thin_plate());
+  const AabbTree tree(hard_meshes::share(std::move(mesh)));
+  const uint64_t best = field_of(tree, 40).hash();
+  int tried = 0;
+  for (int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const int64_t target = left & -left;
+    CAPTURE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    CHECK(field_of(tree, 40).hash() == best);
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    ++tried;
+  }
+  CHECK(tried > 0);
 }
 
 TEST_CASE(

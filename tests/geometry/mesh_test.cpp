@@ -6,6 +6,7 @@
 #include "engine/geometry/mass_properties/mass_properties.hpp"
 #include "engine/geometry/mesh_cleanup.hpp"
 #include "engine/geometry/mesh_orientation.hpp"
+#include "engine/geometry/mesh_sides.hpp"
 #include "engine/geometry/mesh_slivers.hpp"
 #include "engine/geometry/mesh_topology.hpp"
 #include "engine/geometry/solid/solid_report.hpp"
@@ -77,6 +78,30 @@ TEST_CASE("meshes from formulas are closed, outward, of the right genus and volu
   CHECK(t.euler_characteristic == 1);
   CHECK(t.open_edges == 40);
   for (const Vec3& n : t.vertex_normals) CHECK(n.y() > 0);
+}
+
+TEST_CASE("faults of edges are counted as the topology counts them") {
+  Random random(8);
+  int met[3] = {0, 0, 0};
+  for (int i = 0; i < 50; ++i) {
+    // Triangles are left out, turned, or there twice.
+    TriangleMesh mesh = make_mesh::icosphere(1, 1), hurt;
+    hurt.vertices = mesh.vertices;
+    for (Triangle t : mesh.triangles) {
+      const int kind = i == 0 ? 0 : int(random.uniform(0, 40));
+      if (kind == 1) std::swap(t[0], t[1]);
+      if (kind != 2) hurt.triangles.push_back(t);
+      if (kind == 3) hurt.triangles.push_back(t);
+    }
+    const MeshTopology topology = build_topology(hurt);
+    const EdgeFaults faults = edge_faults(hurt);
+    CHECK(faults.open == topology.open_edges);
+    CHECK(faults.non_manifold == topology.non_manifold_edges);
+    CHECK(faults.misoriented == topology.misoriented_edges);
+    CHECK(faults.any() != topology.closed_and_oriented());
+    met[0] += faults.open > 0, met[1] += faults.non_manifold > 0, met[2] += faults.misoriented > 0;
+  }
+  for (const int n : met) CHECK(n > 15);
 }
 
 TEST_CASE("edges bend as the solid does") {

@@ -160,11 +160,16 @@ TEST_CASE("a wrap is a solid with all of its mesh inside, no farther from it tha
     // Points of the wrap against all triangles of the mesh.
     const BruteForceHierarchy all(shared);
     double added = 0;
-    for (size_t t = 0; t < wrap.mesh.triangles.size(); ++t)
-      for (const Vec3& p :
-           {wrap.mesh.corner(t, 0),
-            Vec3((wrap.mesh.corner(t, 0) + wrap.mesh.corner(t, 1) + wrap.mesh.corner(t, 2)) / 3)})
-        added = std::max(added, all.closest(p, 10)->squared_distance);
+    constexpr int parts = 4;
+    for (uint32_t t = 0; t < wrap.mesh.triangles.size(); ++t) {
+      const TriangleCorners c = corners(wrap.mesh, t);
+      for (int i = 0; i <= parts; ++i)
+        for (int j = 0; i + j <= parts; ++j) {
+          const Vec3 p =
+              c[0] + double(i) / parts * (c[1] - c[0]) + double(j) / parts * (c[2] - c[0]);
+          added = std::max(added, all.closest(p, 10)->squared_distance);
+        }
+    }
     added = std::sqrt(added);
     CHECK(added <= wrap.report.bound);
     CHECK(added > 0.8 * wrap.report.added);
@@ -223,6 +228,27 @@ TEST_CASE("a wrap of a sheet is a shell of twice the offset, one of a ball a lar
   CHECK(volume_of_wrap(ball) > volume(0.5));
   CHECK(volume_of_wrap(ball) < volume(0.5 + 2 * d));
   CHECK(ball.report.added < d + 1.5 * options.cell);
+}
+
+TEST_CASE("vertices of a wrap do not stay behind over valleys") {
+  // A ring whose hole is a saddle, and boxes that pass through each other; what lies between these
+  // nearer than the gap is closed up, and so farther off.
+  WrapOptions options;
+  const auto behind = [&](const TriangleMesh& mesh, double cells) {
+    const auto shared = std::make_shared<const TriangleMesh>(mesh);
+    options.cell = bounds(mesh).extent().maxCoeff() / cells;
+    const WrappedMesh wrap = wrap_of(mesh, options);
+    CHECK(check_solid(wrap.mesh).faults.empty());
+    CHECK(encloses(wrap.mesh, mesh));
+    const BruteForceHierarchy all(shared);
+    size_t out = 0;
+    for (const Vec3& p : wrap.mesh.vertices)
+      out += std::sqrt(all.closest(p, 10)->squared_distance) >
+             wrap.report.offset + 0.5 * wrap.report.cell;
+    return double(out) / double(wrap.mesh.vertices.size());
+  };
+  CHECK(behind(make_mesh::torus(0.4, 0.15, 24, 16), 64) == 0);
+  CHECK(behind(heap_of_boxes(), 40) < 0.01);
 }
 
 TEST_CASE("a wrap closes what a ball of the gap does not pass and nothing wider") {

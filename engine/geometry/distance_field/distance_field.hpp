@@ -13,7 +13,7 @@ class Crew;
 
 /// Must be changed whenever the same mesh and options may give another field than before: caches of
 /// fields are keyed by it.
-inline constexpr uint32_t field_version = 1;
+inline constexpr uint32_t field_version = 2;
 
 struct DistanceFieldOptions {
   /// Side of a cell [m]; 0: follows from `error`, or, if that is 0 too, a 64th of the mesh's

@@ -5,7 +5,7 @@
 #include "engine/geometry/distance_field/narrow_band.hpp"
 #include "engine/geometry/distance_field/scan_lines.hpp"
 #include "engine/geometry/distance_field/tolerances.hpp"
-#include "engine/geometry/mesh_topology.hpp"
+#include "engine/geometry/mesh_sides.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -16,8 +16,8 @@
 namespace tumble {
 namespace {
 
-/// Approximate share of the build time spent when the signs, and when the fine nodes, are done.
-constexpr double signs_done = 0.1, blocks_done = 0.8;
+/// Approximate share of the build time spent when the signs, the tiles and the blocks are done.
+constexpr double signs_done = 0.2, tiles_done = 0.7, blocks_done = 0.8;
 constexpr int cells = FieldLayout::cells_along, nodes = FieldLayout::nodes_along;
 const double sqrt3 = std::sqrt(3.0);
 /// Bound of the error of trilinear interpolation in a cube, over its side: the weighted mean
@@ -45,15 +45,15 @@ Status check_options(const DistanceFieldOptions& o) {
 
 Status check_surface(const TriangleMesh& mesh) {
   if (Status s = validate(mesh); !s) return s.error();
-  const MeshTopology topology = build_topology(mesh);
-  if (topology.closed_and_oriented()) return {};
+  const EdgeFaults faults = edge_faults(mesh);
+  if (!faults.any()) return {};
   std::string why;
   const auto add = [&](size_t n, const char* what) {
     if (n > 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", n, what);
   };
-  add(topology.open_edges, "open edges");
-  add(topology.non_manifold_edges, "edges with more than two triangles");
-  add(topology.misoriented_edges, "edges whose triangles disagree");
+  add(faults.open, "open edges");
+  add(faults.non_manifold, "edges with more than two triangles");
+  add(faults.misoriented, "edges whose triangles disagree");
   return Error{
       ErrorCode::invalid_argument,
       "only a closed mesh has an inside; this one has " + why,
@@ -77,11 +77,12 @@ class DistanceFieldBuilder {
     tell_progress(0);
     const ScanLines lines(mesh_, field_.layout_, options_.crew);
     if (stop_requested()) return stopped_error();
-    const BlockTriangles near =
-        triangles_near_blocks(mesh_, field_.layout_, field_.node_range_, options_.crew);
+    const NearTriangles near =
+        triangles_near_tiles(mesh_, field_.layout_, field_.node_range_, options_.crew);
     if (stop_requested()) return stopped_error();
-    if (Status s = fill_blocks(lines, near); !s) return s.error();
-    fill_corners(lines);
+    if (Status s = is_short_ ? fill<int16_t>(lines, near) : fill<int32_t>(lines, near); !s)
+      return s.error();
+    fill_corners(lines, near);
     if (stop_requested()) return stopped_error();
     report();
     return std::move(field_);
@@ -128,101 +129,190 @@ class DistanceFieldBuilder {
         fmt::format("cells of {:.2g} m would do", 1.1 * factor * field_.layout_.cell));
   }
 
-  Status fill_blocks(const ScanLines& lines, const BlockTriangles& near) {
-    const FieldLayout& layout = field_.layout_;
-    const size_t value_bytes = is_short_ ? sizeof(int16_t) : sizeof(int32_t);
-    const double most =
-        double(near.blocks.size()) * double(FieldLayout::nodes_of_block * value_bytes);
-    if (most > double(options_.max_bytes)) return too_large(most);
-    // All nodes are measured first; blocks to which no triangle is near are then left out.
-    std::vector<int32_t> all(is_short_ ? 0 : near.blocks.size() * FieldLayout::nodes_of_block);
-    std::vector<int16_t> all_short(is_short_ ? near.blocks.size() * FieldLayout::nodes_of_block
-                                             : 0);
-    std::vector<char> kept(near.blocks.size(), 0);
-    each(near.blocks.size(), {signs_done, blocks_done}, [&](size_t n) {
-      BlockDistances distances;
-      measure_block(mesh_, layout, near.blocks[n], near.of(n), field_.node_range_, distances);
-      const double least = *std::min_element(distances.begin(), distances.end());
-      if (least > field_.band_ + interpolation_bound * layout.cell) return;
-      kept[n] = 1;
-      const size_t at = n * FieldLayout::nodes_of_block;
-      if (is_short_) {
-        store(lines, near.blocks[n], distances, all_short.data() + at);
-      } else {
-        store(lines, near.blocks[n], distances, all.data() + at);
-      }
+  /// Measures the tiles and makes the blocks of them.
+  template <class Stored>
+  Status fill(const ScanLines& lines, const NearTriangles& near) {
+    if (Status s = check_size(near.tiles.size(), sizeof(Stored)); !s) return s;
+    Tiles<Stored> tiles;
+    measure_tiles(near, tiles);
+    if (stop_requested()) return stopped_error();
+    const std::vector<size_t> kept = blocks_in_band(tiles);
+    if (Status s = check_size(kept.size(), sizeof(Stored)); !s) return s;
+    field_.block_of_.assign(field_.layout_.block_count(), no_index);
+    for (size_t n = 0; n < kept.size(); ++n) field_.block_of_[kept[n]] = uint32_t(n);
+    field_.report_.blocks = kept.size();
+    auto& values = stored(Stored{});
+    values.resize(kept.size() * FieldLayout::nodes_of_block);
+    each(kept.size(), {tiles_done, blocks_done}, [&](size_t n) {
+      store(lines, tiles, kept[n], values.data() + n * FieldLayout::nodes_of_block);
     });
     if (stop_requested()) return stopped_error();
-    field_.block_of_.assign(layout.block_count(), no_index);
-    uint32_t count = 0;
-    for (size_t n = 0; n < near.blocks.size(); ++n)
-      if (kept[n]) field_.block_of_[near.blocks[n]] = count++;
-    if (is_short_) {
-      keep(all_short, kept, count, field_.short_values_);
-    } else {
-      keep(all, kept, count, field_.long_values_);
-    }
-    field_.report_.blocks = count;
     return {};
   }
 
-  template <class Stored>
-  static void keep(const std::vector<Stored>& all, const std::vector<char>& kept, size_t count,
-                   std::vector<Stored>& out) {
-    constexpr size_t size = FieldLayout::nodes_of_block;
-    out.reserve(count * size);
-    for (size_t n = 0; n < kept.size(); ++n)
-      if (kept[n])
-        out.insert(out.end(), all.begin() + std::ptrdiff_t(n * size),
-                   all.begin() + std::ptrdiff_t((n + 1) * size));
+  Status check_size(size_t blocks, size_t value_bytes) const {
+    const double bytes = double(blocks) * double(FieldLayout::nodes_of_block * value_bytes);
+    if (bytes > double(options_.max_bytes)) return too_large(bytes);
+    return {};
   }
 
-  /// Stores magnitudes with their signs, in steps; values out of range become the largest number.
+  std::vector<int16_t>& stored(int16_t) { return field_.short_values_; }
+  std::vector<int32_t>& stored(int32_t) { return field_.long_values_; }
+
+  /// Magnitudes at the nodes of tiles in steps of storage; out of range they are the largest
+  /// number, which is also what a tile without triangles has.
   template <class Stored>
-  void store(const ScanLines& lines, size_t block, const BlockDistances& distances, Stored* out) {
+  struct Tiles {
+    using Values = std::array<Stored, nodes_of_tile>;
+    static constexpr Stored beyond = std::numeric_limits<Stored>::max();
+
+    std::vector<Values> values;
+    std::vector<Stored> least;  ///< of each tile
+    std::vector<uint32_t> at;   ///< index of the tile by place, or no_index
+
+    Stored of(const FieldLayout& layout, std::array<int, 3> place, int x, int y, int z) const {
+      const uint32_t n = index(layout, place);
+      return n == no_index ? beyond : values[n][node_in_tile(x, y, z)];
+    }
+    /// Index of a tile that may be past the last along an axis.
+    uint32_t index(const FieldLayout& layout, std::array<int, 3> place) const {
+      for (size_t k = 0; k < 3; ++k)
+        if (place[k] >= layout.blocks[k]) return no_index;
+      return at[layout.block_index(place[0], place[1], place[2])];
+    }
+  };
+
+  template <class Stored>
+  void measure_tiles(const NearTriangles& near, Tiles<Stored>& tiles) {
+    const size_t count = near.tiles.size();
+    tiles.values.resize(count);
+    tiles.least.resize(count);
+    tiles.at.assign(field_.layout_.block_count(), no_index);
+    for (size_t n = 0; n < count; ++n) tiles.at[near.tiles[n]] = uint32_t(n);
+    first_squares_.resize(count);
+    const double square = field_.node_range_ * field_.node_range_;
+    each(count, {signs_done, tiles_done}, [&](size_t n) {
+      static thread_local TileMeasure measure;
+      const TileDistances& squares =
+          measure.squares(mesh_, field_.layout_, field_.node_range_, near, n);
+      auto& out = tiles.values[n];
+      for (size_t i = 0; i < nodes_of_tile; ++i)
+        out[i] = squares[i] < square ? Stored(std::sqrt(squares[i]) / field_.step_ + 0.5)
+                                     : Tiles<Stored>::beyond;
+      tiles.least[n] = *std::min_element(out.begin(), out.end());
+      first_squares_[n] = squares[0];
+    });
+  }
+
+  /// The blocks with a cell that a point of the band may be in, ascending.
+  template <class Stored>
+  std::vector<size_t> blocks_in_band(const Tiles<Stored>& tiles) const {
+    const FieldLayout& layout = field_.layout_;
+    const double limit = (field_.band_ + interpolation_bound * layout.cell) / field_.step_ + 1;
+    std::vector<size_t> out;
+    for (size_t b = 0; b < layout.block_count(); ++b)
+      if (double(least_of_block(tiles, layout.block_place(b))) <= limit) out.push_back(b);
+    return out;
+  }
+
+  /// Least magnitude of a block's nodes: of its own tile and of the faces of those after it.
+  template <class Stored>
+  Stored least_of_block(const Tiles<Stored>& tiles, std::array<int, 3> place) const {
+    Stored least = Tiles<Stored>::beyond;
+    for (int part = 0; part < 8; ++part) {
+      const std::array<int, 3> after{part & 1, part >> 1 & 1, part >> 2};
+      const uint32_t n = tiles.index(
+          field_.layout_, {place[0] + after[0], place[1] + after[1], place[2] + after[2]});
+      if (n == no_index || tiles.least[n] >= least) continue;
+      const auto last = [&](size_t k) { return after[k] ? 1 : tile_nodes; };
+      for (int z = 0; z < last(2); ++z)
+        for (int y = 0; y < last(1); ++y)
+          for (int x = 0; x < last(0); ++x)
+            least = std::min(least, tiles.values[n][node_in_tile(x, y, z)]);
+    }
+    return least;
+  }
+
+  /// A block's magnitudes with their signs.
+  template <class Stored>
+  void store(const ScanLines& lines, const Tiles<Stored>& tiles, size_t block, Stored* out) {
     const auto place = field_.layout_.block_place(block);
     size_t overlapped = 0;
     std::array<int, nodes> turns;
     std::array<bool, nodes> odd;
     for (int z = 0; z < nodes; ++z)
       for (int y = 0; y < nodes; ++y) {
-        const int row = cells * place[1] + y, layer = cells * place[2] + z;
-        lines.winding(row, layer, cells * place[0], nodes, 1, turns.data());
-        lines.parity(row, layer, cells * place[0], nodes, 1, odd.data());
+        Stored* const row = out + FieldLayout::node_in_block(0, y, z);
+        copy_row(tiles, place, y, z, row);
+        const int along_y = cells * place[1] + y, along_z = cells * place[2] + z;
+        if (lines.row(along_y, along_z).empty()) continue;
+        lines.winding(along_y, along_z, cells * place[0], nodes, 1, turns.data());
+        lines.parity(along_y, along_z, cells * place[0], nodes, 1, odd.data());
         for (size_t x = 0; x < size_t(nodes); ++x) {
-          const size_t n = FieldLayout::node_in_block(int(x), y, z);
-          const double steps = std::isfinite(distances[n])
-                                   ? std::round(distances[n] / field_.step_)
-                                   : double(std::numeric_limits<Stored>::max());
-          out[n] = Stored(turns[x] != 0 ? -steps : steps);
+          if (turns[x] != 0) row[x] = Stored(-row[x]);
           overlapped += odd[x] != (turns[x] != 0) || turns[x] > 1 || turns[x] < -1;
         }
       }
     overlapped_ += overlapped;
   }
 
-  /// The coarse level: exact distances at the corners of all blocks. The distance at a corner
-  /// bounds that at the next in its row, which saves most of the search.
-  void fill_corners(const ScanLines& lines) {
+  /// Copies the magnitudes of a row of a block from its tile and the next one.
+  template <class Stored>
+  void copy_row(const Tiles<Stored>& tiles, std::array<int, 3> place, int y, int z,
+                Stored* row) const {
+    place[1] += y / tile_nodes;
+    place[2] += z / tile_nodes;
+    const size_t first = node_in_tile(0, y % tile_nodes, z % tile_nodes);
+    const uint32_t own = tiles.index(field_.layout_, place);
+    if (own == no_index) {
+      std::fill_n(row, tile_nodes, Tiles<Stored>::beyond);
+    } else {
+      std::copy_n(tiles.values[own].data() + first, tile_nodes, row);
+    }
+    ++place[0];
+    const uint32_t next = tiles.index(field_.layout_, place);
+    row[tile_nodes] = next == no_index ? Tiles<Stored>::beyond : tiles.values[next][first];
+  }
+
+  /// The coarse level: exact distances at the corners of all blocks, which are the first nodes of
+  /// tiles. Where none is measured there, the triangle nearest to the corner before bounds the
+  /// distance, which saves most of the search.
+  void fill_corners(const ScanLines& lines, const NearTriangles& near) {
     const FieldLayout& layout = field_.layout_;
-    field_.corners_.resize(layout.corner_count());
+    field_.corners_.assign(layout.corner_count(), 0);
+    const double range_square = field_.node_range_ * field_.node_range_;
+    for (size_t n = 0; n < near.tiles.size(); ++n) {
+      const auto [x, y, z] = layout.block_place(near.tiles[n]);
+      if (first_squares_[n] < range_square)
+        field_.corners_[layout.corner_index(x, y, z)] = float(std::sqrt(first_squares_[n]));
+    }
     const size_t rows = size_t(layout.blocks[1] + 1) * size_t(layout.blocks[2] + 1);
     each(rows, {blocks_done, 1}, [&](size_t row) {
       const int y = int(row % size_t(layout.blocks[1] + 1)),
                 z = int(row / size_t(layout.blocks[1] + 1));
       std::vector<int> turns(size_t(layout.blocks[0]) + 1);
       lines.winding(cells * y, cells * z, 0, layout.blocks[0] + 1, cells, turns.data());
-      double reach = std::numeric_limits<double>::infinity();
+      uint32_t triangle = 0;
       for (int x = 0; x <= layout.blocks[0]; ++x) {
-        const Vec3 p = layout.node(cells * x, cells * y, cells * z);
-        auto near = surface_.closest(p, reach);
-        if (!near) near = surface_.closest(p, std::numeric_limits<double>::infinity());
-        const double d = std::sqrt(near->squared_distance);
-        reach = (d + layout.block_size()) * (1 + tolerances::node_error);
-        const bool inside = turns[size_t(x)] != 0;
-        field_.corners_[layout.corner_index(x, y, z)] = float(inside ? -d : d);
+        float& corner = field_.corners_[layout.corner_index(x, y, z)];
+        if (corner == 0) {
+          const Vec3 p = layout.node(cells * x, cells * y, cells * z);
+          const MeshPoint found = nearest(p, triangle);
+          triangle = found.triangle;
+          corner = float(std::sqrt(found.squared_distance));
+        }
+        if (turns[size_t(x)] != 0) corner = -corner;
       }
     });
+  }
+
+  /// The nearest point of the surface, which is sought no farther away than a triangle is.
+  MeshPoint nearest(const Vec3& p, uint32_t triangle) const {
+    const double square = closest_on_triangle(p, mesh_.corner(triangle, 0),
+                                              mesh_.corner(triangle, 1), mesh_.corner(triangle, 2))
+                              .squared_distance;
+    const auto near = surface_.closest(p, std::sqrt(square) * (1 + tolerances::prune_slack));
+    return near ? *near : *surface_.closest(p, std::numeric_limits<double>::infinity());
   }
 
   void report() {
@@ -269,6 +359,7 @@ class DistanceFieldBuilder {
   DistanceField field_;
   bool is_short_ = true;
   std::atomic<size_t> overlapped_{0};
+  std::vector<double> first_squares_;  ///< squared distance at the first node of each near tile
 };
 
 double field_cell(const DistanceFieldOptions& options, const Aabb& bounds) {

@@ -2,6 +2,7 @@
 
 #include "engine/core/chunks.hpp"
 #include "engine/core/stop.hpp"
+#include "engine/geometry/predicates/orientation.hpp"
 #include "engine/geometry/primitive_tests/point_in_object.hpp"
 
 #include <algorithm>
@@ -10,16 +11,23 @@
 namespace tumble {
 namespace {
 
+/// The nodes of an axis from `first` to before `end`.
 struct NodeSpan {
-  int first, last;
+  int first, end;
 };
 
-/// The nodes of an axis within an interval, with one more on either side for rounding.
-NodeSpan nodes_about(const FieldLayout& layout, int axis, double low, double high) {
-  const int most = FieldLayout::cells_along * layout.blocks[size_t(axis)];
-  const double from = std::floor((low - layout.origin[axis]) / layout.cell) - 1,
-               to = std::ceil((high - layout.origin[axis]) / layout.cell) + 1;
-  return {int(std::clamp(from, 0.0, double(most))), int(std::clamp(to, 0.0, double(most)))};
+/// The nodes of an axis within an interval.
+NodeSpan nodes_within(const FieldLayout& layout, int axis, double low, double high) {
+  const int count = FieldLayout::cells_along * layout.blocks[size_t(axis)] + 1;
+  const auto guess = [&](double x) {
+    return int(std::clamp(std::ceil((x - layout.origin[axis]) / layout.cell), 0.0, double(count)));
+  };
+  NodeSpan out{guess(low), guess(high)};
+  while (out.first > 0 && layout.at(axis, out.first - 1) >= low) --out.first;
+  while (out.first < count && layout.at(axis, out.first) < low) ++out.first;
+  while (out.end > 0 && layout.at(axis, out.end - 1) > high) --out.end;
+  while (out.end < count && layout.at(axis, out.end) <= high) ++out.end;
+  return out;
 }
 
 /// Appends the crossings of grid rows with one triangle.
@@ -27,28 +35,30 @@ void cross_rows(const TriangleMesh& mesh, size_t t, const FieldLayout& layout,
                 std::vector<RowCrossing>& out) {
   const Triangle3 corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
   const Aabb box = triangle_bounds(mesh, t);
-  const NodeSpan ys = nodes_about(layout, 1, box.min.y(), box.max.y()),
-                 zs = nodes_about(layout, 2, box.min.z(), box.max.z()),
-                 xs = nodes_about(layout, 0, box.min.x(), box.max.x());
+  const NodeSpan ys = nodes_within(layout, 1, box.min.y(), box.max.y()),
+                 zs = nodes_within(layout, 2, box.min.z(), box.max.z());
+  if (ys.first >= ys.end || zs.first >= zs.end) return;
+  const NodeSpan xs = nodes_within(layout, 0, box.min.x(), box.max.x());
   const int rows = FieldLayout::cells_along * layout.blocks[1] + 1;
-  for (int z = zs.first; z <= zs.last; ++z)
-    for (int y = ys.first; y <= ys.last; ++y) {
-      const double py = layout.at(1, y), pz = layout.at(2, z);
-      if (py < box.min.y() || py > box.max.y() || pz < box.min.z() || pz > box.max.z()) continue;
-      const Vec3 before(box.min.x() - layout.cell, py, pz);
-      const int turns = ray_crossing(before, corners);
+  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  for (int z = zs.first; z < zs.end; ++z)
+    for (int y = ys.first; y < ys.end; ++y) {
+      const Vec2 p(layout.at(1, y), layout.at(2, z));
+      const int turns = line_crossing(p, corners);
       if (turns == 0) continue;
-      // Finds the first node after the crossing by bisection.
-      int low = xs.first, high = xs.last + 1;
-      while (low < high) {
-        const int middle = low + (high - low) / 2;
-        if (ray_crossing(layout.node(middle, y, z), corners) != 0) {
-          low = middle + 1;
-        } else {
-          high = middle;
-        }
-      }
-      out.push_back({uint32_t(z * rows + y), low, turns});
+      // The first node after the crossing is sought from where doubles have the plane, which is
+      // nearly always next to it, and decided exactly.
+      const auto before = [&](int x) {
+        return orientation(corners[0], corners[1], corners[2], layout.node(x, y, z)) == -turns;
+      };
+      const double plane = corners[0].x() - (normal.y() * (p.x() - corners[0].y()) +
+                                             normal.z() * (p.y() - corners[0].z())) /
+                                                normal.x();
+      const double guess = std::ceil((plane - layout.origin.x()) / layout.cell);
+      int node = guess >= xs.first && guess < xs.end ? int(guess) : xs.end;
+      while (node > xs.first && !before(node - 1)) --node;
+      while (node < xs.end && before(node)) ++node;
+      out.push_back({uint32_t(z * rows + y), node, turns});
     }
 }
 

@@ -13,27 +13,27 @@ Vec2 shadow(const Vec3& p) {
   return {p.y(), p.z()};
 }
 
+}  // namespace
+
 /// Winding number of the triangle's projection along X about p, which is perturbed symbolically:
 /// sides that run upward in z with p on their left count 1, those that run downward with p on their
 /// right -1. Half-open intervals and strict signs give a side the same answer in both of its
 /// triangles.
-int shadow_winding(const Triangle3& t, const Vec3& p) {
+int line_crossing(const Vec2& p, const Triangle3& t) {
   int winding = 0;
   for (size_t k = 0; k < 3; ++k) {
     const Vec3 &a = t[k], &b = t[(k + 1) % 3];
-    const bool below_a = a.z() <= p.z(), below_b = b.z() <= p.z();
+    const bool below_a = a.z() <= p.y(), below_b = b.z() <= p.y();
     if (below_a == below_b) continue;
-    const int side = orientation(shadow(a), shadow(b), shadow(p));
+    const int side = orientation(shadow(a), shadow(b), p);
     if (below_a && side > 0) ++winding;
     if (below_b && side < 0) --winding;
   }
   return winding;
 }
 
-}  // namespace
-
 int ray_crossing(const Vec3& p, const Triangle3& t) {
-  const int turns = shadow_winding(t, p);
+  const int turns = line_crossing(shadow(p), t);
   // The projection is counter-clockwise if the outer side faces +X: the ray leaves there. It meets
   // the triangle ahead of p if p is on the inner side of the plane.
   return turns != 0 && orientation(t[0], t[1], t[2], p) == -turns ? turns : 0;

@@ -29,6 +29,9 @@ PointInObject point_in_object(const Vec3& p, const Hierarchy& object);
 /// p: 1 leaving through its outer side, -1 entering, 0 not at all. Summed over a closed mesh it is
 /// the winding number.
 int ray_crossing(const Vec3& p, const Triangle3& t);
+/// The same for a whole line along X through these y and z: 1 if it leaves through the triangle's
+/// outer side, -1 if it enters, 0 if it misses.
+int line_crossing(const Vec2& p, const Triangle3& t);
 
 /// A vertex of one object inside another or on it.
 struct VertexContact {

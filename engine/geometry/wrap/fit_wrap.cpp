@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tumble {
 namespace {
@@ -42,6 +43,8 @@ class Fitting {
 
   /// False when no vertex moved by what matters.
   bool pass();
+  /// After the passes: those that the others' ways kept behind go alone.
+  void bring_left_behind();
 
  private:
   bool plane_before(const Vec3& x, double reach, WantedPlane& plane) const;
@@ -59,6 +62,13 @@ class Fitting {
   void free_triangles();
   bool free_witnesses();
   void place_changed();
+  void gather_stars();
+  std::span<const uint32_t> star(uint32_t v) const {
+    return {stars_.data() + first_of_star_[v], first_of_star_[v + 1] - first_of_star_[v]};
+  }
+  double height(const Vec3& x) const;
+  bool bring(uint32_t v);
+  bool move_alone(uint32_t v, const Vec3& to);
 
   TriangleMesh& wrap_;
   const EnclosedMesh& mesh_;
@@ -68,8 +78,10 @@ class Fitting {
   std::vector<uint8_t> closes_gap_;  ///< triangles that follow no mesh, as the first pass found
   std::vector<Vec3> from_, goal_;
   std::vector<int8_t> halved_;
-  std::vector<uint8_t> shortened_;  ///< vertices whose way was halved in this round
-  std::vector<uint8_t> untested_;   ///< triangles
+  std::vector<uint8_t> shortened_;               ///< vertices whose way was halved in this round
+  std::vector<uint8_t> untested_;                ///< triangles
+  std::vector<uint32_t> first_of_star_, stars_;  ///< triangles about each vertex
+  std::vector<uint32_t> near_witnesses_;
 };
 
 /// The plane at the offset before the point of the mesh nearest to x; false beyond `reach`.
@@ -256,12 +268,99 @@ bool Fitting::pass() {
   return most > 0.01 * fit_.cell * fit_.cell;
 }
 
+void Fitting::gather_stars() {
+  first_of_star_.assign(wrap_.vertices.size() + 1, 0);
+  for (const Triangle& t : wrap_.triangles)
+    for (const uint32_t v : t) ++first_of_star_[v + 1];
+  for (size_t v = 1; v < first_of_star_.size(); ++v) first_of_star_[v] += first_of_star_[v - 1];
+  stars_.resize(first_of_star_.back());
+  std::vector<uint32_t> next(first_of_star_.begin(), first_of_star_.end() - 1);
+  for (uint32_t t = 0; t < wrap_.triangles.size(); ++t)
+    for (const uint32_t v : wrap_.triangles[t]) stars_[next[v]++] = t;
+}
+
+/// How far a point is from the mesh beyond the offset [m].
+double Fitting::height(const Vec3& x) const {
+  const auto near = mesh_.mesh().closest(x, std::numeric_limits<double>::infinity());
+  return near ? std::sqrt(near->squared_distance) - fit_.offset : 0;
+}
+
+/// Moves a vertex if all triangles about it are free there and pass over no witness.
+bool Fitting::move_alone(uint32_t v, const Vec3& to) {
+  const Vec3 before = wrap_.vertices[v];
+  Aabb swept;
+  swept.include(to);
+  for (const uint32_t t : star(v))
+    for (const uint32_t corner : wrap_.triangles[t]) swept.include(wrap_.vertices[corner]);
+  near_witnesses_.clear();
+  mesh_.witnesses_in(swept, near_witnesses_);
+  // How often the surface winds about a witness may not change.
+  std::vector<int> winding(near_witnesses_.size(), 0);
+  const auto count = [&](int sign) {
+    for (size_t n = 0; n < winding.size(); ++n)
+      for (const uint32_t t : star(v))
+        winding[n] += sign * ray_crossing(mesh_.witnesses()[near_witnesses_[n]], corners(wrap_, t));
+  };
+  const auto put = [&](const Vec3& x) {
+    wrap_.vertices[v] = x;
+    for (const uint32_t t : star(v)) tree_.set(t, triangle_bounds(wrap_, t));
+  };
+  count(-1);
+  put(to);
+  count(1);
+  const bool passes =
+      std::all_of(winding.begin(), winding.end(), [](int n) { return n == 0; }) &&
+      std::all_of(star(v).begin(), star(v).end(), [&](uint32_t t) { return free(t); });
+  if (!passes) put(before);
+  return passes;
+}
+
+/// Takes a vertex nearer to the mesh: to the offset before the point nearest to it, or, where it
+/// lies beside its neighbours, before that nearest to the mean of these.
+bool Fitting::bring(uint32_t v) {
+  const Vec3 x = wrap_.vertices[v];
+  const double from = height(x), least = tolerances::above_plane * fit_.cell;
+  Vec3 mean = Vec3::Zero();
+  for (const uint32_t t : star(v))
+    for (const uint32_t corner : wrap_.triangles[t])
+      if (corner != v) mean += wrap_.vertices[corner] / (2.0 * double(star(v).size()));
+  for (const Vec3& start : {x, mean}) {
+    WantedPlane plane;
+    if (!plane_before(start, std::numeric_limits<double>::infinity(), plane)) continue;
+    const Vec3 goal = start + (plane.at - plane.n.dot(start)) * plane.n;
+    for (int halved = 0; halved <= tolerances::most_halvings; ++halved) {
+      const Vec3 to = x + std::ldexp(1.0, -halved) * (goal - x);
+      if (height(to) < from - least && move_alone(v, to)) return true;
+    }
+  }
+  return false;
+}
+
+void Fitting::bring_left_behind() {
+  gather_stars();
+  const size_t count = wrap_.vertices.size();
+  std::vector<uint8_t> follows(count, 1);
+  for (size_t t = 0; t < closes_gap_.size(); ++t)
+    if (closes_gap_[t])
+      for (const uint32_t v : wrap_.triangles[t]) follows[v] = 0;
+  std::vector<uint8_t> behind(count, 0);
+  for (bool any = true; any && !stop_requested();) {
+    for_each(fit_.crew, count, [&](size_t v) {
+      behind[v] = follows[v] && height(wrap_.vertices[v]) > tolerances::left_behind * fit_.cell;
+    });
+    any = false;
+    for (uint32_t v = 0; v < count && !stop_requested(); ++v)
+      if (behind[v]) any = bring(v) || any;
+  }
+}
+
 }  // namespace
 
 void fit_wrap(TriangleMesh& wrap, const EnclosedMesh& mesh, const WrapFit& fit) {
   Fitting fitting(wrap, mesh, fit);
   for (int n = 0; n < tolerances::most_passes && fitting.pass(); ++n) {
   }
+  if (!stop_requested()) fitting.bring_left_behind();
 }
 
 }  // namespace tumble

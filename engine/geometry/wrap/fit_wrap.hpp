@@ -24,6 +24,10 @@ struct WrapFit {
 /// halved, until all pass: they keep the clearance of `mesh`, meet no others, and leave no witness
 /// outside. The wrap, which fulfils that before, therefore does so afterwards and at any stop. The
 /// same bits for any crew.
+///
+/// Ways that all go at once are in each other's way in valleys, where some vertices then stay.
+/// Those go alone at the end, straight or over the middle of their neighbours, while any gets
+/// nearer.
 void fit_wrap(TriangleMesh& wrap, const EnclosedMesh& mesh, const WrapFit& fit);
 
 }  // namespace tumble

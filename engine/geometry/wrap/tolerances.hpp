@@ -55,6 +55,10 @@ inline constexpr double longest_way = 2;
 /// way that is at most some cells is no more than the error that is allowed.
 inline constexpr int most_halvings = 3;
 
+/// After that a vertex is left behind when it is this far beyond the offset [cells]: the error that
+/// a wrap may have from being simplified.
+inline constexpr double left_behind = 0.25;
+
 /// How often all vertices are drawn to the mesh [-]: what was blocked by neighbours that had not
 /// moved yet is free the next time; a fourth pass moved nothing by a tenth of a cell on the meshes
 /// of the tests.

@@ -93,40 +93,54 @@ Result<TriangleMesh> first_surface(const Hierarchy& surface, const WrapOptions& 
 /// while their points may be farther away than what was found, by more than a share of it. No point
 /// of a triangle is farther from a triangle of the other than one of its corners is, as that is
 /// convex.
+///
+/// All triangles are looked at once before any is divided, so that nearly all need not be; each is
+/// then divided to the end, so that no more than the parts of one are kept.
 class FarthestPoint {
  public:
   FarthestPoint(const TriangleMesh& from, const Hierarchy& to) : to_(to) {
     for (const Vec3& p : from.vertices) found_ = std::max(found_, distance_from(to, p));
-    for (size_t t = 0; t < from.triangles.size(); ++t) open_.push_back(corners(from, uint32_t(t)));
-    for (size_t n = 0; n < open_.size() && !stop_requested(); ++n) divide(open_[n]);
+    std::vector<double> most;
+    for (size_t t = 0; t < from.triangles.size() && !stop_requested(); ++t)
+      most.push_back(look_at(corners(from, uint32_t(t))));
+    for (size_t t = 0; t < most.size() && !stop_requested(); ++t)
+      if (most[t] > bound()) divide(corners(from, uint32_t(t)));
   }
   double found() const { return found_; }
   double bound() const { return found_ * (1 + tolerances::measured_share); }
 
  private:
-  void divide(TriangleCorners t) {
+  /// Finds the distance of its middle; returns one that no point of it exceeds.
+  double look_at(const TriangleCorners& t) {
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
     const auto near = to_.closest(middle, std::numeric_limits<double>::infinity());
-    if (!near) return;
+    if (!near) return 0;
     found_ = std::max(found_, std::sqrt(near->squared_distance));
     const TriangleCorners other = corners(to_.mesh(), near->triangle);
     double most = 0;
     for (const Vec3& p : t)
       most = std::max(most, closest_on_triangle(p, other[0], other[1], other[2]).squared_distance);
-    if (std::sqrt(most) <= bound()) return;
-    // In half across the longest side.
-    size_t k = 0;
-    for (size_t i = 1; i < 3; ++i)
-      if ((t[(i + 1) % 3] - t[i]).squaredNorm() > (t[(k + 1) % 3] - t[k]).squaredNorm()) k = i;
-    const Vec3 half = 0.5 * (t[k] + t[(k + 1) % 3]);
-    TriangleCorners a = t, b = t;
-    a[(k + 1) % 3] = b[k] = half;
-    open_.push_back(a);
-    open_.push_back(b);
+    return std::sqrt(most);
+  }
+
+  void divide(const TriangleCorners& whole) {
+    std::vector<TriangleCorners> open{whole};
+    while (!open.empty() && !stop_requested()) {
+      TriangleCorners a = open.back();
+      open.pop_back();
+      if (look_at(a) <= bound()) continue;
+      // In half across the longest side.
+      size_t k = 0;
+      for (size_t i = 1; i < 3; ++i)
+        if ((a[(i + 1) % 3] - a[i]).squaredNorm() > (a[(k + 1) % 3] - a[k]).squaredNorm()) k = i;
+      TriangleCorners b = a;
+      a[(k + 1) % 3] = b[k] = 0.5 * (a[k] + a[(k + 1) % 3]);
+      open.push_back(a);
+      open.push_back(b);
+    }
   }
 
   const Hierarchy& to_;
-  std::vector<TriangleCorners> open_;
   double found_ = 0;
 };
 

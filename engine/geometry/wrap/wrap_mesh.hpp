@@ -12,7 +12,7 @@ class Hierarchy;
 
 /// Changes whenever the same mesh and options may give another wrap than before: what is kept of
 /// wraps is kept by it.
-inline constexpr uint32_t wrap_version = 2;
+inline constexpr uint32_t wrap_version = 3;
 
 struct WrapOptions {
   /// Holes and slits that a ball of this diameter does not pass are closed [m]; 0: a 12th of the
