@@ -304,19 +304,47 @@ bool Expression::is_condition() const {
   return joins_conditions && conditions.size() == 1 && conditions.back();
 }
 
-Result<double> Expression::evaluate(const NameLookup& names) const {
-  std::vector<double> values(names_.size());
-  for (size_t i = 0; i < names_.size(); ++i) {
-    const auto value = names ? names(names_[i]) : std::nullopt;
-    if (!value) return Error{ErrorCode::not_found, "unknown name '" + names_[i] + "'", {}, {}};
-    values[i] = *value;
+namespace {
+
+/// The operands that wait for their operation. Few expressions have more than a handful, and those
+/// that courses evaluate in each tick take nothing from the heap.
+class OperandStack {
+ public:
+  size_t size() const { return size_; }
+  double& back() { return size_ <= few ? first_[size_ - 1] : rest_.back(); }
+  void push(double value) {
+    if (size_ < few)
+      first_[size_] = value;
+    else
+      rest_.push_back(value);
+    ++size_;
   }
-  std::vector<double> stack;
+  double pop() {
+    const double value = back();
+    if (size_ > few) rest_.pop_back();
+    --size_;
+    return value;
+  }
+
+ private:
+  static constexpr size_t few = 32;
+  std::array<double, few> first_;
+  std::vector<double> rest_;
+  size_t size_ = 0;
+};
+
+}  // namespace
+
+Result<double> Expression::evaluate(const NameLookup& names) const {
+  OperandStack stack;
   for (const Step& s : steps_) {
     if (s.op == Op::number) {
-      stack.push_back(s.value);
+      stack.push(s.value);
     } else if (s.op == Op::name) {
-      stack.push_back(values[s.index]);
+      const auto value = names ? names(names_[s.index]) : std::nullopt;
+      if (!value)
+        return Error{ErrorCode::not_found, "unknown name '" + names_[s.index] + "'", {}, {}};
+      stack.push(*value);
     } else if (s.op == Op::negate) {
       stack.back() = -stack.back();
     } else if (s.op == Op::logical_not) {
@@ -324,8 +352,7 @@ Result<double> Expression::evaluate(const NameLookup& names) const {
     } else if (s.op == Op::call && functions[s.index].arguments == 1) {
       stack.back() = functions[s.index].call(stack.back(), 0);
     } else {
-      const double b = stack.back();
-      stack.pop_back();
+      const double b = stack.pop();
       stack.back() = s.op == Op::call ? functions[s.index].call(stack.back(), b)
                                       : binary(s.op, stack.back(), b);
     }

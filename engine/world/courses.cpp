@@ -274,22 +274,21 @@ void set_motor_targets(WorldState& s) {
 }
 
 Status follow_courses(WorldState& s) {
-  std::vector<JointDrives> drives;
+  // All are looked at before any is changed, and worked out anew then, which needs no memory.
   for (const uint32_t slot : s.joints.timed) {
     const JointDef& def = s.joints.defs[slot];
-    if (!usable(drives.emplace_back(drives_now(s, def))))
+    if (!usable(drives_now(s, def)))
       return no_value(s.time_after(), fmt::format("joint '{}'", def.name));
   }
-  std::vector<Aim> aims;
   for (const uint32_t slot : s.on_course)
-    if (!finite(aims.emplace_back(aim_of(s, slot))))
-      return no_value(s.time_after(), body_label(s, slot));
+    if (!finite(aim_of(s, slot))) return no_value(s.time_after(), body_label(s, slot));
   ForceDef scratch;
   for (const uint32_t slot : s.forces_on_course)
     if (Status fine = check_force(s, slot, scratch); !fine) return fine;
   if (Status fine = check_gravity(s); !fine) return fine;
-  for (size_t i = 0; i < drives.size(); ++i) set_targets(s, s.joints.timed[i], drives[i]);
-  for (size_t i = 0; i < aims.size(); ++i) set_velocity(s, s.on_course[i], aims[i]);
+  for (const uint32_t slot : s.joints.timed)
+    set_targets(s, slot, drives_now(s, s.joints.defs[slot]));
+  for (const uint32_t slot : s.on_course) set_velocity(s, slot, aim_of(s, slot));
   for (const uint32_t slot : s.forces_on_course) {
     ForceDef& def = *s.forces[slot];
     if (differs_at(def, s.time_after())) rouse_pulled(s, def);

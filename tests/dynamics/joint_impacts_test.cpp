@@ -263,8 +263,9 @@ TEST_CASE("an armature takes its share of a plastic hit, in whichever sub-step t
           }
           const double after = -ball_mass * speed / (ball_mass + 1 + armature);
           CHECK(std::fabs(w.bodies[slider].v.y() - after) < 0.01 * speed);
-          // The next sub-step starts from the impulse of the hit, and does not take all of it back.
-          CHECK(std::fabs(w.bodies[ball].v.y() - after) < 0.035 * speed);
+          // In ordinary islands the next sub-step starts from the impulse of the hit, and does not
+          // take all of it back.
+          CHECK(std::fabs(w.bodies[ball].v.y() - after) < (ordinary ? 0.035 : 0.01) * speed);
         }
 }
 
@@ -300,6 +301,114 @@ TEST_CASE("a ball bounces off a rod with the inertia of the wheel to which it is
       }
 }
 
+TEST_CASE("a ball without restitution moves on with the link that it hits, whatever burdens that") {
+  // The burden is a wheel that a gear ties to the rod, an armature, or a second rod.
+  constexpr double speed = 3, ball_mass = 0.5, ratio = 2, x = 0.9;
+  enum class Burden { wheel, armature, rod };
+  for (const Burden burden : {Burden::wheel, Burden::armature, Burden::rod})
+    for (const double hz : {60.0, 240.0})
+      for (const double height : {0.5, 0.511, 0.527})
+        for (const double inertia_behind : {0.0, 0.04, 0.8, 5.0}) {
+          CAPTURE(int(burden));
+          CAPTURE(hz);
+          CAPTURE(height);
+          CAPTURE(inertia_behind);
+          const int rods = burden == Burden::rod ? 2 : 1;
+          if (rods == 2 && inertia_behind > 0) continue;
+          RodRow row(rods, hz, 0);
+          if (burden == Burden::wheel && inertia_behind > 0) {
+            BodyDef d;
+            d.mass = 1;
+            d.inertia = Vec3::Constant(inertia_behind / (ratio * ratio));
+            d.pose.x = {0, 0, 5};
+            const uint32_t wheel = row.add(d);
+            row.join(JointKind::revolute, no_body, wheel, {d.pose.x, Quat::Identity()});
+            row.couplings.push_back({1, 0, 0, 0, ratio, 0});
+            row.links.push_back({wheel, 0});
+            for (Joint& joint : row.joints) joint.coupled = 1;
+          }
+          if (burden == Burden::armature) {
+            JointDrives drives;
+            drives[0].armature = inertia_behind;
+            row.joints[0].drives = std::make_shared<JointDrives>(drives);
+          }
+          BodyDef d = body(sphere(0.05), {l * (rods - 1) + x, height, 0}, 0);
+          d.mass = ball_mass;
+          d.velocity = {0, -speed, 0};
+          const uint32_t ball = row.add(d);
+          int ticks = 0;
+          while (std::fabs(row.bodies[ball].v.y() + speed) < 1e-9 && ++ticks < hz) row.step();
+          for (int tick = 0; tick < 0.02 * hz; ++tick) row.step();
+          const double alone = x / (inertia + c * c + inertia_behind);
+          const Response unit = rods == 1 ? Response{alone, alone} : solve(2, l, x);
+          const double yields = rods == 1 ? x * alone : l * unit.first + x * unit.last;
+          const double impulse = speed / (1 / ball_mass + yields);
+          CHECK(std::fabs(row.bodies[ball].v.y() - (impulse / ball_mass - speed)) < 0.01 * speed);
+          CHECK(std::fabs(row.rate(0) + impulse * unit.first) < 0.01 * speed);
+        }
+}
+
+TEST_CASE("a ball without restitution stops at a link that a limit or a strong motor holds") {
+  // Closed form: nothing moves after the hit. Where a burden is added, it does not either.
+  constexpr double speed = 3;
+  enum class Held { limit, burdened_limit, motor };
+  for (const Held held : {Held::limit, Held::burdened_limit, Held::motor})
+    for (const double hz : {60.0, 240.0})
+      for (const double ball_mass : {0.5, 10.0}) {
+        CAPTURE(int(held));
+        CAPTURE(hz);
+        CAPTURE(ball_mass);
+        RodRow row(1, hz, 0);
+        JointDrives drives;
+        if (held == Held::motor) {
+          drives[0].motor.kind = MotorKind::velocity;
+          drives[0].motor.max_force = 1e6;
+        } else {
+          drives[0].limits.lower = 0;
+        }
+        if (held == Held::burdened_limit) drives[0].armature = 2;
+        row.joints[0].drives = std::make_shared<JointDrives>(drives);
+        BodyDef d = body(sphere(0.05), {0.9, 0.5, 0}, 0);
+        d.mass = ball_mass;
+        d.velocity = {0, -speed, 0};
+        const uint32_t ball = row.add(d);
+        for (int tick = 0; tick < 0.2 * hz; ++tick) row.step();
+        CHECK(std::fabs(row.bodies[ball].v.y()) < 0.01 * speed);
+        CHECK(std::fabs(row.rate(0)) < 0.01);
+        CHECK(std::fabs(row.joints[0].value[0]) < 1e-3);
+      }
+}
+
+TEST_CASE("a ball that hits a flap askew is turned by the impulse of all that hangs on the flap") {
+  // A ball that slides throughout loses mu J / m of its speed along the hinge, with J the impulse
+  // of the plastic hit, and takes up the spin of 5/2 of that over its radius.
+  constexpr double speed = 3, along = 3, mu = 0.2, ball_mass = 0.5, radius = 0.05, x = 0.6;
+  for (const double hz : {60.0, 240.0})
+    for (const double armature : {0.0, 0.8, 5.0}) {
+      CAPTURE(hz);
+      CAPTURE(armature);
+      JointWorld w(hz);
+      w.gravity.setZero();
+      BodyDef d = body(box(0.5, 0.05, 0.5), {c, 0, 0}, mu);
+      d.mass = 1;
+      const uint32_t flap = w.add(d);
+      Joint& hinge = w.join(JointKind::revolute, no_body, flap, Pose{});
+      JointDrives drives;
+      drives[0].armature = armature;
+      hinge.drives = std::make_shared<JointDrives>(drives);
+      d = body(sphere(radius), {x, 0.4, -0.3}, mu);
+      d.mass = ball_mass;
+      d.velocity = {0, -speed, along};
+      const uint32_t ball = w.add(d);
+      for (int tick = 0; w.bodies[ball].omega.isZero(0) && tick < hz; ++tick) w.step();
+      const double impulse = speed / (1 / ball_mass + x * x / (inertia + c * c + armature));
+      const double slowed = along - w.bodies[ball].v.z();
+      CHECK(w.bodies[ball].v.y() == doctest::Approx(impulse / ball_mass - speed).epsilon(0.02));
+      CHECK(slowed == doctest::Approx(mu * impulse / ball_mass).epsilon(0.03));
+      CHECK(w.bodies[ball].omega.x() == doctest::Approx(2.5 * slowed / radius).epsilon(0.03));
+    }
+}
+
 TEST_CASE("a slider with an armature bounces off a wall with all of its speed") {
   for (const double armature : {0.5, 2.0, 5.0}) {
     CAPTURE(armature);
@@ -321,7 +430,8 @@ TEST_CASE("a slider with an armature bounces off a wall with all of its speed") 
   }
 }
 
-TEST_CASE("what two motors press between them neither slides down nor loses its force") {
+TEST_CASE(
+    "what two motors press between them is no hit: it neither slides down nor loses its force") {
   constexpr double radius = 0.05, push = 20;
   for (const double hz : {60.0, 240.0})
     for (const double room : {0.0, 1e-3}) {

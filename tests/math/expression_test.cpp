@@ -77,6 +77,19 @@ TEST_CASE("functions") {
   CHECK(value("exp(log(7)) + pow(2, 10)") == doctest::Approx(1031).epsilon(1e-14));
 }
 
+TEST_CASE("operands that wait in any number of nested brackets") {
+  // 1 + (2 - (3 + (4 - ... (n)))): from inside out, by C++'s own arithmetic.
+  for (const int n : {2, 31, 32, 33, 34, 60, 90}) {
+    CAPTURE(n);
+    std::string text;
+    for (int i = 1; i < n; ++i) text += std::to_string(i) + (i % 2 == 1 ? " + (" : " - (");
+    text += std::to_string(n) + std::string(size_t(n - 1), ')');
+    double sum = n;
+    for (int i = n - 1; i >= 1; --i) sum = i % 2 == 1 ? i + sum : i - sum;
+    CHECK(value(text) == sum);
+  }
+}
+
 TEST_CASE("names") {
   CHECK(value("bodies.brick[12].mass * time") == 14);
   const auto parsed = Expression::parse("a + b.c * a");

@@ -6,6 +6,7 @@
 #include "engine/scene/workloads/run.hpp"
 #include "tests/support/test_world.hpp"
 
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -115,6 +116,31 @@ TEST_CASE("a steady tick allocates nothing: drag, wind, dust, a turning table") 
   for (size_t i = 0; i < 200; ++i) dust.particles[i].x = {0.01 * double(i), 20, 0};
   REQUIRE(w->create_particles(dust).ok());
   check_soon_steady(*w.world, 120);  // boxes slide off now and then: now more contacts, now fewer
+}
+
+TEST_CASE("a steady tick allocates nothing: gravity and a moved body that follow expressions") {
+  const auto course = [](const char* text) {
+    auto made = TimeCourse::expression(text, {{"size", 0.5}});
+    REQUIRE(made.ok());
+    return *std::move(made);
+  };
+  const TimeCourse swing = course("size * sin(2*pi*t) * min(1, max(t, 0.1)) + 0*size*t");
+  double value = 0;
+  CHECK(AllocationCount::during([&] { value = swing.at(0.3); }) == 0);
+  CHECK(value != 0);
+  WorldSettings settings;
+  settings.gravity = {course("0.1*sin(t)"), course("-9.81 + size*cos(3*t)"), 0};
+  TestWorld w(settings);
+  w.ground();
+  for (int i = 0; i < 20; ++i) w.box({2.0 * i, 0.25, 0}, {0.25, 0.25, 0.25});
+  BodyDef paddle = TestWorld::box_def({0, 3, 0}, {0.5, 0.1, 0.1});
+  paddle.type = BodyType::kinematic;
+  BodyCourse path;
+  path.x[0] = std::make_shared<const TimeCourse>(swing);
+  path.angle = path.x[0];
+  paddle.course = std::make_shared<const BodyCourse>(path);
+  w.add(paddle);
+  check_steady(*w.world, 60);
 }
 
 TEST_CASE("a steady tick allocates nothing: particles are born and die") {

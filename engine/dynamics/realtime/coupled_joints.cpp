@@ -33,47 +33,6 @@ uint32_t first_coupling_row(const CoupledJoints& all) {
   return all.kept - uint32_t(all.couplings.size());
 }
 
-void add_end(Line& line, uint32_t body, const Vec3& linear, const Vec3& angular) {
-  line.body[line.ends] = body;
-  line.linear[line.ends] = linear;
-  line.angular[line.ends] = angular;
-  ++line.ends;
-}
-void add_ends(Line& line, uint32_t a, uint32_t b, const JointBlock::Line& of) {
-  add_end(line, a, -of.linear, of.angular_a);
-  add_end(line, b, of.linear, of.angular_b);
-}
-
-double velocity(const SolverIsland& island, const Line& line) {
-  double v = 0;
-  for (uint32_t k = 0; k < line.ends; ++k) {
-    const SolverBody& body = island.bodies[line.body[k]];
-    v += line.linear[k].dot(body.v) + line.angular[k].dot(body.w);
-  }
-  return v;
-}
-
-void push(const SolverIsland& island, const Line& line, double impulse) {
-  for (uint32_t k = 0; k < line.ends; ++k) {
-    SolverBody& body = island.bodies[line.body[k]];
-    body.v += impulse * body.inverse_mass * line.linear[k];
-    body.w += impulse * (body.inverse_inertia * line.angular[k]);
-  }
-}
-
-/// The entry of J M^-1 J^T of two rows.
-double product(const SolverIsland& island, const Line& p, const Line& q) {
-  double sum = 0;
-  for (uint32_t i = 0; i < p.ends; ++i)
-    for (uint32_t k = 0; k < q.ends; ++k) {
-      if (p.body[i] != q.body[k]) continue;
-      const SolverBody& body = island.bodies[p.body[i]];
-      sum += body.inverse_mass * p.linear[i].dot(q.linear[k]) +
-             (body.inverse_inertia * p.angular[i]).dot(q.angular[k]);
-    }
-  return sum;
-}
-
 JointBlock::Line line_of(const JointRow& row) {
   return {row.row.b.linear, row.row.a.angular, row.row.b.angular, row.error, row.bias};
 }
@@ -183,7 +142,7 @@ void refresh_couplings(const SolverContext& c, const SolverIsland& island, doubl
     all.factor.resize(size_t(all.count) * all.count);
     const auto k = entries(all);
     for (uint32_t i = 0; i < all.count; ++i)
-      for (uint32_t j = 0; j <= i; ++j) k(i, j) = product(island, all.lines[i], all.lines[j]);
+      for (uint32_t j = 0; j <= i; ++j) k(i, j) = line_product(island, all.lines[i], all.lines[j]);
     all.scaled.resize(all.count);
     factorise_kept(k, all.kept, all.count, all.scaled);
     set_compliances(island, all);
@@ -205,7 +164,7 @@ void warm_start_couplings(const SolverIsland& island, double hs, JointPass pass)
       const Line& line = all.lines[first_coupling_row(all) + k];
       for (uint32_t end = 0; end < line.ends; ++end)
         if (turns_away(island.bodies[line.body[end]], impulse * line.angular[end], hs)) impulse = 0;
-      push(island, line, impulse);
+      push_line(island, line, impulse);
     }
 }
 
@@ -213,7 +172,7 @@ void solve_coupled(const SolverIsland& island, double hs, JointPass pass, Couple
   const auto k = entries(all);
   std::vector<double>& change = all.change;
   change.resize(all.count);
-  for (uint32_t i = 0; i < all.count; ++i) change[i] = velocity(island, all.lines[i]);
+  for (uint32_t i = 0; i < all.count; ++i) change[i] = line_velocity(island, all.lines[i]);
   std::vector<double*>& impulses = all.impulses;
   std::vector<DriveRow*>& drives = all.drives;
   impulses.resize(all.count);
@@ -250,7 +209,7 @@ void solve_coupled(const SolverIsland& island, double hs, JointPass pass, Couple
                           ? kept_change(change[i], *impulses[i], island.joint_softness, pass)
                           : -change[i];
     *impulses[i] += by;
-    push(island, all.lines[i], by);
+    push_line(island, all.lines[i], by);
   }
 }
 
@@ -261,11 +220,7 @@ void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
       for (size_t half = 0; half < 2; ++half) {
         if (c.block[half] == CouplingBlock::none) continue;
         const JointBlock::Line& line = c.lines[half];
-        JointPush done;
-        done.impulse = impulse * line.linear;
-        done.moment_a = impulse * line.angular_a;
-        done.moment_b = impulse * line.angular_b;
-        island.joints[c.block[half]].add(done);
+        island.joints[c.block[half]].add(push_of(line, impulse));
       }
     }
     if (pass == JointPass::moving) all.now += hs;
@@ -273,7 +228,7 @@ void sum_couplings(const SolverIsland& island, double hs, JointPass pass) {
 }
 
 double speed_along(const SolverIsland& island, const CoupledJoints& all, size_t coupling) {
-  return velocity(island, all.lines[first_coupling_row(all) + coupling]);
+  return line_velocity(island, all.lines[first_coupling_row(all) + coupling]);
 }
 
 double store_couplings(const SolverContext& c, const SolverIsland& island, double hs) {

@@ -17,6 +17,58 @@ inline double line_velocity(const SolverBody& a, const SolverBody& b, const Join
   return row.linear.dot(b.v - a.v) + row.angular_a.dot(a.w) + row.angular_b.dot(b.w);
 }
 
+/// The impulse and moments of one impulse along a line.
+inline JointPush push_of(const JointBlock::Line& line, double impulse) {
+  JointPush push;
+  push.impulse = impulse * line.linear;
+  push.moment_a = impulse * line.angular_a;
+  push.moment_b = impulse * line.angular_b;
+  return push;
+}
+
+// Lines with up to four ends.
+
+inline void add_end(CoupledJoints::Line& line, uint32_t body, const Vec3& linear,
+                    const Vec3& angular) {
+  line.body[line.ends] = body;
+  line.linear[line.ends] = linear;
+  line.angular[line.ends] = angular;
+  ++line.ends;
+}
+inline void add_ends(CoupledJoints::Line& line, uint32_t a, uint32_t b,
+                     const JointBlock::Line& of) {
+  add_end(line, a, -of.linear, of.angular_a);
+  add_end(line, b, of.linear, of.angular_b);
+}
+inline double line_velocity(const SolverIsland& island, const CoupledJoints::Line& line) {
+  double v = 0;
+  for (uint32_t k = 0; k < line.ends; ++k) {
+    const SolverBody& body = island.bodies[line.body[k]];
+    v += line.linear[k].dot(body.v) + line.angular[k].dot(body.w);
+  }
+  return v;
+}
+inline void push_line(const SolverIsland& island, const CoupledJoints::Line& line, double impulse) {
+  for (uint32_t k = 0; k < line.ends; ++k) {
+    SolverBody& body = island.bodies[line.body[k]];
+    body.v += impulse * body.inverse_mass * line.linear[k];
+    body.w += impulse * (body.inverse_inertia * line.angular[k]);
+  }
+}
+/// The entry of J M^-1 J^T of two lines.
+inline double line_product(const SolverIsland& island, const CoupledJoints::Line& p,
+                           const CoupledJoints::Line& q) {
+  double sum = 0;
+  for (uint32_t i = 0; i < p.ends; ++i)
+    for (uint32_t k = 0; k < q.ends; ++k) {
+      if (p.body[i] != q.body[k]) continue;
+      const SolverBody& body = island.bodies[p.body[i]];
+      sum += body.inverse_mass * p.linear[i].dot(q.linear[k]) +
+             (body.inverse_inertia * p.angular[i]).dot(q.angular[k]);
+    }
+  return sum;
+}
+
 /// The change of a kept row's impulse that removes a velocity, given as velocity / mass (multiplied
 /// by the effective mass).
 inline double kept_change(double velocity_over_mass, double impulse, const Softness& soft,

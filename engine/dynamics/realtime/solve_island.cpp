@@ -2,6 +2,7 @@
 
 #include "engine/core/stop.hpp"
 #include "engine/dynamics/realtime/blows.hpp"
+#include "engine/dynamics/realtime/hits.hpp"
 #include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/solve_joints.hpp"
 
@@ -86,6 +87,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
   prepare_joints(c, island, hs);
   const bool measured = bounces(island);
   double taken = 0;
+  HitPoints hit;
   const auto note_pass = [&](double share) {
     note_speeds(island, share);
     note_joint_speeds(island);
@@ -97,6 +99,8 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (i > 0) end_substep(island, hs, false);
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
+    taken += hit_before_motion(island, hs, hit);
+    if (measured && !hit.empty()) note_pass(0);
     warm_start(island);
     if (!island.springs.empty()) start_springs(c, island, hs, i == 0);
     warm_start_joints(island, hs, JointPass::moving);
@@ -113,6 +117,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     sum_springs(c, island, hs);
     sum_joints(island, hs, JointPass::moving);
     refresh_joints(c, island, hs);
+    taken += hit_after_motion(island, hs, hit);
     if (measured) note_pass(1);
     warm_start_joints(island, hs, JointPass::relaxing);
     relax_joints(island, hs);

@@ -81,10 +81,21 @@ void solve_all_friction(const SolverIsland& island, ContactRow& row, Pair& pair)
   }
 }
 
+/// What the turning of round surfaces adds to the gap: it does not change as they turn, since only
+/// the part of the arms inside the rounding turns.
+double rolled_gap(const ContactRow& row, const Pair& pair) {
+  return row.rounding_a * row.n.dot(pair.a.turn * row.n) +
+         row.rounding_b * row.n.dot(pair.b.turn * row.n);
+}
+
+double gap_of(const ContactRow& row, const PointRow& p, const Pair& pair, double rolled) {
+  const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
+  return p.gap + rolled + row.n.dot(moved);
+}
+
 void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled, double hs,
                   double push_out_speed, bool with_bias) {
-  const Vec3 moved = pair.b.dx + pair.b.turn * p.rb - pair.a.dx - pair.a.turn * p.ra;
-  const double gap = p.gap + rolled + row.n.dot(moved);
+  const double gap = gap_of(row, p, pair, rolled);
   double bias = 0, mass_scale = 1, impulse_scale = 0;
   if (gap > 0) {
     bias = gap / hs;
@@ -102,6 +113,11 @@ void solve_normal(const ContactRow& row, PointRow& p, Pair& pair, double rolled,
 }
 
 }  // namespace
+
+double gap_of(const SolverIsland& island, const ContactRow& row, const PointRow& p) {
+  const Pair pair(island.bodies[row.a], island.bodies[row.b]);
+  return gap_of(row, p, pair, rolled_gap(row, pair));
+}
 
 void warm_start(const SolverIsland& island) {
   for (ContactRow& row : island.rows) {
@@ -121,10 +137,7 @@ namespace {
 
 void solve_all_normals(const SolverIsland& island, const ContactRow& row, Pair& pair, double hs,
                        double push_out_speed, bool bias) {
-  // The gap of round surfaces does not change as they turn: only the part of the arms inside the
-  // rounding turns.
-  const double rolled = row.rounding_a * row.n.dot(pair.a.turn * row.n) +
-                        row.rounding_b * row.n.dot(pair.b.turn * row.n);
+  const double rolled = rolled_gap(row, pair);
   for (uint32_t i = row.first; i < row.first + row.count; ++i)
     solve_normal(row, island.points[i], pair, rolled, hs, push_out_speed, bias);
 }

@@ -147,6 +147,9 @@ struct SolverContext {
 /// velocity over each sub-step.
 BodyVelocity first_velocity(const SolverContext& context, uint32_t slot, double hs, double kick);
 
+/// The present gap at a point of a contact.
+double gap_of(const SolverIsland& island, const ContactRow& row, const PointRow& p);
+
 /// Fills in bodies, rows and points for sub-steps of `hs`; rows come with a, b, first, count and
 /// source set.
 void prepare_rows(const SolverContext& context, const SolverIsland& island, double hs);
