@@ -8,6 +8,10 @@
 namespace tumble {
 namespace {
 
+bool alike(const Pose& a, const Pose& b) {
+  return a.x == b.x && a.q.coeffs() == b.q.coeffs();
+}
+
 struct Apply {
   WorldState& s;
 
@@ -33,6 +37,9 @@ struct Apply {
         ErrorCode::internal, "a queued command names something that does not exist", {}, {}};
   }
 
+  /// make_body() has laid a body asleep where its definition says so.
+  void note_asleep(const RigidBody& body) { s.laid_asleep = s.laid_asleep || body.asleep; }
+
   Status operator()(const CreateBody& c) {
     auto body = make_body(c.def, s.shape_factory());
     if (!body) return body.error();
@@ -42,9 +49,8 @@ struct Apply {
       s.bodies.bodies.resize(id.index + 1);
       s.body_defs.resize(id.index + 1);
     }
-    body->asleep = c.def.starts_asleep && c.def.can_sleep && c.def.type == BodyType::dynamic;
+    note_asleep(*body);
     body->teleported = true;
-    s.laid_asleep = s.laid_asleep || body->asleep;
     s.bodies.bodies[id.index] = std::move(*body);
     s.body_defs[id.index] = std::make_shared<const BodyDef>(c.def);
     begin_course(s, id.index);
@@ -65,14 +71,16 @@ struct Apply {
   Status operator()(const SetBody& c) {
     RigidBody* old = s.bodies.find(c.id);
     if (!old) return broken();
-    auto body = make_body(c.def, s.shape_factory());
-    if (!body) return body.error();
-    forget_contacts(c.id);
-    const Pose before = old->body_frame(), now = body->body_frame();
-    body->teleported = before.x != now.x || before.q.coeffs() != now.q.coeffs();
     BodyDef def = c.def;
     const BodyDef& known = *s.body_defs[c.id.index];
+    const Pose before = old->body_frame();
     const bool same_course = def.course == known.course;
+    // World::body_def() gives the pose at which a course begins: the body is where that has led.
+    if (def.course && same_course && alike(def.pose, known.pose)) def.pose = before;
+    auto body = make_body(def, s.shape_factory());
+    if (!body) return body.error();
+    forget_contacts(c.id);
+    body->teleported = !alike(before, body->body_frame());
     if (same_course && !body->teleported && body->v == old->v && body->omega == old->omega) {
       def.pose = known.pose;  // the pose at which its course begins, not its present pose
     } else {
@@ -82,6 +90,10 @@ struct Apply {
     *old = std::move(*body);
     s.body_defs[c.id.index] = std::make_shared<const BodyDef>(std::move(def));
     if (!same_course) begin_course(s, c.id.index);
+    // Before the first tick a body begins as one that is created; later it has begun already, and
+    // what is changed is awake.
+    old->asleep = old->asleep && s.tick == 0;
+    note_asleep(*old);
     for (const JointId joint : s.joints.at_body(c.id)) {
       const JointDef def = s.joints.defs[joint.index];
       wake_ends(def);

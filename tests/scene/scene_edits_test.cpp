@@ -182,6 +182,59 @@ TEST_CASE("bodies, joints and springs that were added and removed are saved") {
   CHECK(moon.world->settings().realtime.substeps == 7);
 }
 
+TEST_CASE(
+    "what was typed of a body comes back with as few digits, and its material only if need be") {
+  AddedBody ball;
+  ball.def.name = "new_ball";
+  ball.def.shapes.resize(1);
+  ball.def.look.colour = Colour{0.3, 0.55, 0.123}.linear();
+  std::string text = saved(small, "small.json", {ball});
+  const std::string added = text.substr(text.find("\"new_ball\""));
+  const std::string body = added.substr(0, added.find("\"joints\""));
+  CAPTURE(body);
+  CHECK(body.find("0.3,") != std::string::npos);
+  CHECK(body.find("0.123\n") + body.find("0.123]") != 2 * std::string::npos);
+  CHECK(body.find("material") == std::string::npos);
+  const BuiltScene again = built(text, "small.json");
+  const BodyDef now = *again.world->body_def(again.bodies.at("new_ball"));
+  CHECK(now.look.colour == ball.def.look.colour);
+  CHECK(now.shapes[0].material.density == Material{}.density);
+  // Every number of three digits, and every one of single precision at all.
+  for (int n = 0; n <= 1000; ++n) {
+    const double typed = double(n) / 1000;
+    const Vec3f linear = Colour{typed, typed, typed}.linear();
+    const double back = Colour::from_linear(linear).r;
+    CHECK((back == typed || std::abs(back * 255 - std::round(back * 255)) < 1e-9));
+    CHECK(Colour{back, back, back}.linear() == linear);
+    const auto between = float(std::nextafter(linear[0], 1.0f));
+    const double other = Colour::from_linear(Vec3f::Constant(between)).r;
+    CHECK(Colour{other, other, other}.linear()[0] == between);
+  }
+}
+
+TEST_CASE("a copy that is turned however far is saved as it stands") {
+  const BuiltScene scene = built(small, "small.json");
+  const BodyDef before = *scene.world->body_def(scene.bodies.at("brick[1]"));
+  for (const Vec3& turned : {Vec3(0, 120, 0), Vec3(100, 0, 0), Vec3(0, 0, 179), Vec3(0, 180, 0),
+                             Vec3(180, 0, 180), Vec3(10, 135, 30), Vec3(-95, 91, -170),
+                             Vec3(0, 90, 0), Vec3(33, -90, 20), Vec3(0, 270, 0)}) {
+    CAPTURE(turned.transpose());
+    BodyDef after = before;
+    after.pose.q = euler_deg_to_quat(turned);
+    const std::string text = saved(small, "small.json", {ChangedBody{"brick[1]", before, after}});
+    const BuiltScene again = built(text, "small.json");
+    const auto def = [&](const char* name) {
+      return *again.world->body_def(again.bodies.at(name));
+    };
+    // Reference: where the corners of the cube are, which has no other side for a quaternion.
+    for (const Vec3& corner : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+      CHECK((def("brick[1]").pose.q * corner - after.pose.q * corner).norm() < 1e-12);
+    CHECK(def("brick[1]").pose.x == before.pose.x);
+    CHECK(def("brick[0]").pose.q.coeffs() == before.pose.q.coeffs());
+    CHECK(def("brick[2]").pose.q.coeffs() == before.pose.q.coeffs());
+  }
+}
+
 TEST_CASE("a spring that is added keeps the courses of its numbers and its radius") {
   AddedSpring spring;
   spring.name = "pull";

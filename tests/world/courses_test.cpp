@@ -354,3 +354,58 @@ TEST_CASE("event: a motor of any strength that starts fast loses no turn") {
     }
   }
 }
+
+TEST_CASE("a body that is changed stays on its course, and one before the first tick begins anew") {
+  // Reference: the course itself.
+  TestWorld w(weightless("realtime"));
+  BodyDef def = TestWorld::box_def({0, 1, 0});
+  def.type = BodyType::kinematic;
+  def.course = std::make_shared<const BodyCourse>(
+      BodyCourse{{formula("1 + sin(2*t)"), nullptr, nullptr}, Vec3::UnitY(), nullptr});
+  const BodyId id = w.add(def);
+  const auto change = [&](auto what) {
+    BodyDef now = *w->body_def(id);
+    what(now);
+    const Status done = w->set_body(id, now);
+    REQUIRE_MESSAGE(done.ok(), test::why_not(done));
+    w.apply();
+  };
+  w.run(0.5);
+  change([](BodyDef& d) { d.look.colour = Vec3f(1, 0, 0); });
+  CHECK(w->body_def(id)->course == def.course);
+  w.run(0.5);
+  CHECK(w.body(id).pose.x.x() == doctest::Approx(1 + std::sin(2.0)).epsilon(1e-12));
+  CHECK(w.body(id).pose.x.y() == 1);
+  // Put elsewhere it leaves its course, and keeps its velocity.
+  change([](BodyDef& d) { d.pose.x = Vec3(0, 5, 0); });
+  CHECK(w->body_def(id)->course == nullptr);
+  w.run(0.25);
+  CHECK(w.body(id).pose.x.y() == 5);
+}
+
+TEST_CASE(
+    "a body that is changed before the first tick starts asleep where its definition says so") {
+  const auto made = [](bool asleep) {
+    auto w = std::make_unique<TestWorld>();
+    w->ground();
+    BodyDef def = TestWorld::box_def({0, 3, 0});
+    def.starts_asleep = asleep;
+    w->add(def);
+    return w;
+  };
+  const auto first = made(true), changed = made(false);
+  const auto set_asleep = [&](TestWorld& w, bool asleep) {
+    BodyDef def = *w->body_def(w->frame()->body(1).id);
+    def.starts_asleep = asleep;
+    REQUIRE(w->set_body(w->frame()->body(1).id, def).ok());
+    w.apply();
+  };
+  set_asleep(*changed, true);
+  CHECK((*changed)->state_hash() == (*first)->state_hash());
+  changed->run(0.5);
+  CHECK((*changed)->frame()->body(1).pose.x.y() == 3);  // in the air, as nothing touches it
+  // Later it is awake, as what is changed is.
+  set_asleep(*changed, true);
+  changed->run(0.5);
+  CHECK((*changed)->frame()->body(1).pose.x.y() < 2.5);
+}

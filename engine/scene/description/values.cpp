@@ -17,6 +17,10 @@ Colour from_rgb(unsigned rgb) {
           double(rgb & 255u) / 255};
 }
 
+/// Digits after the point with which every number of single precision from 0 to 1 is told from its
+/// neighbours where they are closest in colours: near 1, by 2^-24.
+constexpr int most_digits = 9;
+
 double linear_channel(double s) {
   return s <= 0.04045 ? s / 12.92 : det::pow((s + 0.055) / 1.055, 2.4);
 }
@@ -24,9 +28,17 @@ double linear_channel(double s) {
 double shown_channel(float linear) {
   const double c = double(linear);
   const double shown = c <= 0.0031308 ? 12.92 * c : 1.055 * det::pow(c, 1 / 2.4) - 0.055;
-  // A byte converted to linear single precision is converted back to the same byte.
+  // A byte converted to linear single precision is converted back to the same byte, and any other
+  // number to the shortest decimal fraction that gives the same: what was typed has few digits.
   const double byte = std::floor(shown * 255 + 0.5);
-  return std::abs(shown * 255 - byte) < 0.01 ? byte / 255 : shown;
+  const auto gives_the_same = [&](double s) { return float(linear_channel(s)) == linear; };
+  if (gives_the_same(byte / 255)) return byte / 255;
+  double parts = 10;
+  for (int digits = 1; digits <= most_digits; ++digits, parts *= 10) {
+    const double rounded = std::floor(shown * parts + 0.5) / parts;
+    if (gives_the_same(rounded)) return rounded;
+  }
+  return shown;
 }
 
 }  // namespace

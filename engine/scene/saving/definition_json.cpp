@@ -36,6 +36,11 @@ Json material_json(const Material& material) {
   return out;
 }
 
+void put_material(Json& body, const Material& material) {
+  if (write_all(describe_material(material)) != write_all(describe_material(Material{})))
+    body["material"] = material_json(material);
+}
+
 Json shape_json(const BodyShapeDef& part) {
   Json shape = {{"type", std::string(shape_entry(part.shape.type).name)}};
   for (const ShapeParameter& p : shape_entry(part.shape.type).parameters)
@@ -65,7 +70,7 @@ Json body_json(const BodyDef& def) {
     out["shape"] = shapes[0];
   else
     out["shapes"] = std::move(shapes);
-  if (!def.shapes.empty()) out["material"] = material_json(def.shapes[0].material);
+  if (!def.shapes.empty()) put_material(out, def.shapes[0].material);
   return out;
 }
 

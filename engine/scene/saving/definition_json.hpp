@@ -16,6 +16,8 @@ std::string one_line(const Json& value);
 Json number_of(const ShapeDef& shape, const ShapeParameter& p);
 /// The name of a built-in material, or the values that differ from the default.
 Json material_json(const Material& material);
+/// The same as member of a body, which has the default where its file says none.
+void put_material(Json& body, const Material& material);
 /// Without its material.
 Json shape_json(const BodyShapeDef& part);
 Json body_json(const BodyDef& def);

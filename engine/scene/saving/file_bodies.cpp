@@ -52,7 +52,7 @@ void FileChanges::add_mesh_body(const AddedBody& c) {
   body["shape"] = {{"type", "mesh"}, {"mesh", name_mesh(*c.mesh)}};
   if (c.mesh->mode != MeshMode::triangle_mesh)
     body["shape"]["mode"] = std::string(enum_name(c.mesh->mode));
-  body["material"] = material_json(c.mesh->material);
+  put_material(body, c.mesh->material);
   set(Path{} / "bodies" / c.def.name, body);
 }
 
@@ -75,7 +75,7 @@ void FileChanges::add_copy(const AddedBody& c, const Path& original) {
   const Path own = Path{} / "bodies" / c.def.name;
   set(own, body);
   const BodyName name = split_name(c.like);
-  for (const char* key : {"shape", "shapes", "material", "density"}) {
+  for (const char* key : {"shape", "shapes", "material", "density", "drawn"}) {
     auto text = edit.value(original / key);
     // A copy of a repetition may have a material of its own.
     if (name.copy)
@@ -176,6 +176,8 @@ void FileChanges::operator()(const ChangedBody& c) {
     edit.remove(path / "angular_velocity_deg");
   if (c.after.mass != c.before.mass && !c.after.mass) edit.remove(path / "mass");
   merge(path, before, after);
+  for (const WrittenKey& own : c.written)
+    own.text ? edit.set(path / own.key, *own.text) : edit.remove(path / own.key);
   const std::vector<ShapeGroup> old = shape_groups(c.before), now = shape_groups(c.after);
   if (old.size() != now.size()) return change_count_of_shapes(c, name, old, now);
   for (size_t g = 0; g < std::min(old.size(), now.size()); ++g) {

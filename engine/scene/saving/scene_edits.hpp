@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -20,10 +21,17 @@ namespace tumble {
 // Changes by the user to a world that was made from a scene file. Bodies are named as in the world:
 // "ball", "brick[3]".
 
+/// A key of a body as the file is to say it, word for word: a definition has a course or a drawn
+/// shape in another form than that in which it was written.
+struct WrittenKey {
+  std::string key;
+  std::optional<std::string> text;  ///< JSON; none: the key is left out
+};
 /// Values, shapes and materials that differ between the two definitions.
 struct ChangedBody {
   std::string name;
   BodyDef before, after;
+  std::vector<WrittenKey> written = {};  ///< keys that are not taken from the definitions
 };
 /// A mesh file from which a whole body is made.
 struct MeshOfBody {
