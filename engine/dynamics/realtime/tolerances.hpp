@@ -68,9 +68,10 @@ inline constexpr double max_joint_correction = 10;
 /// Sweeps over the coordinates of one joint each time that it is solved [-]: they are nearly
 /// orthogonal, so that three sweeps leave less than a hundredth.
 inline constexpr int drive_sweeps = 3;
-/// A coordinate that reaches its limit more slowly than this does not bounce [m/s], [rad/s]: a
-/// hundredth of what contacts need, as only the joint itself is involved. Twice the speed that is
-/// gained in a sub-step is added to it, so that series of bounces end.
+/// A coordinate that reaches its limit more slowly than this does not bounce, and a contact that
+/// closes more slowly is no hit on a mechanism [m/s], [rad/s]: a hundredth of what contacts need to
+/// bounce, as only the joint itself is involved. Twice the speed that is gained in a sub-step is
+/// added to it, so that series of bounces end.
 inline constexpr double limit_rest_speed = 0.01;
 /// Accuracy of bounces, relative to their speed [-]: a thousandth, as for the other rows of a
 /// precise island. Each round of bounces and joints removes an eighth to a half of the error.
