@@ -5,6 +5,8 @@
 #include "engine/geometry/primitive_tests/point_in_object.hpp"
 
 #include "engine/geometry/make_mesh.hpp"
+#include "engine/geometry/primitive_tests/box_pairs.hpp"
+#include "engine/geometry/primitive_tests/triangle_pairs.hpp"
 #include "tests/geometry/draws.hpp"
 
 #include <limits>
@@ -179,4 +181,21 @@ TEST_CASE("parts that overlap count as their union, and how often they wind is t
     CHECK(point_in_object(Vec3(1.5, 0, 0), *object).winding == 1);
     CHECK(point_in_object(Vec3(2.5, 0, 0), *object).side == PointSide::outside);
   }
+}
+
+TEST_CASE("boxes that are segments along X meet triangles as segments do, touching ones too") {
+  Random random(12);
+  const auto whole = [&] { return std::floor(random.uniform(-2, 3)); };
+  const auto corner = [&] { return Vec3(whole(), whole(), whole()); };
+  int met = 0, missed = 0;
+  for (int i = 0; i < draws::count(20000); ++i) {
+    const Triangle3 t{corner(), corner(), corner()};
+    const Vec3 from = corner();
+    const Vec3 to(from.x() + std::max(0.0, whole()), from.y(), from.z());
+    const bool meets = box_triangle_intersect(Aabb{from, to}, t);
+    CHECK(meets == segment_triangle_intersect(from, to, t));
+    ++(meets ? met : missed);
+  }
+  CHECK(met > draws::count(20000) / 50);
+  CHECK(missed > draws::count(20000) / 50);
 }

@@ -213,6 +213,29 @@ TEST_CASE("a distance field says its cells, bytes and errors, and draws its slic
   CHECK(json_of(tumble_program({"mesh", file, "--json"})).count("distance_field") == 0);
 }
 
+TEST_CASE("Ctrl-C leaves all slices of a distance field or none") {
+  const TempFolder folder;
+  const std::string file = l_prism(folder.path());
+  const fs::path slices = folder.path() / "slices";
+  const std::vector<std::string> line{"mesh", file,       "--sdf",        "--cell",
+                                      "0.01", "--slices", slices.string()};
+  ProgramOptions options;
+  // When the folder is there, which is before anything is computed, and when a slice is.
+  for (const size_t least : {0, 1}) {
+    options.signal_when = [&] {
+      return fs::exists(slices) && files_of(slices).size() >= least ? SIGINT : 0;
+    };
+    const ProgramRun run = tumble_program(line, options);
+    if (least == 0) {
+      CHECK(run.code == 130);
+      CHECK(run.out.empty());
+      CHECK_FALSE(fs::exists(slices));
+    } else {
+      CHECK(files_of(slices).size() == 24);  // it may have ended before the signal came
+    }
+  }
+}
+
 TEST_CASE(
     "open meshes, options that miss their flag and paths that cannot be written are refused") {
   const TempFolder folder;

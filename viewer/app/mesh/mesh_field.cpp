@@ -15,6 +15,7 @@
 #include <cmath>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -97,20 +98,24 @@ class NewFolder {
   bool was_there_ = true;
 };
 
-/// Returns how many pictures were written before one failed or a signal came.
+/// Draws all pictures before it writes any, so that a signal leaves either none of them or all;
+/// returns how many.
 Result<size_t> write_slices(const DistanceField& field, const Aabb& mesh,
                             const std::filesystem::path& folder, const StopSignal& stop) {
   WorkProgress progress("slices");
-  size_t done = 0;
-  for (int n = 0; n < slice_count && !stop.requested(); ++n) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int n = 0; n < slice_count; ++n) {
     const double z = mesh.min.z() + mesh.extent().z() * (n + 0.5) / slice_count;
-    const Image picture = slice_picture(field, z);
-    if (stop.requested()) break;
-    if (const Status written = write_png(slice_file(folder, n), picture); !written)
-      return written.error();
-    progress.show(double(++done) / slice_count);
+    auto picture = encode_png(slice_picture(field, z));
+    if (stop.requested()) return size_t{0};
+    if (!picture) return picture.error();
+    pictures.push_back(*std::move(picture));
+    progress.show(double(n + 1) / slice_count);
   }
-  return done;
+  for (int n = 0; n < slice_count; ++n)
+    if (const Status written = write_file(slice_file(folder, n), pictures[size_t(n)]); !written)
+      return written.error();
+  return pictures.size();
 }
 
 }  // namespace
