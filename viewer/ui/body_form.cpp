@@ -48,8 +48,12 @@ void say_it_is_of_all_copies(PanelContext& context, const BodyDef& def) {
 /// files are left out.
 class BodyWidgets : public ParameterWidgets {
  public:
-  BodyWidgets(PanelContext& context, std::string prefix, Group group, bool copy)
-      : ParameterWidgets(context, std::move(prefix)), group_(group), copy_(copy) {}
+  /// `group`: the values of this one; none: all.
+  BodyWidgets(PanelContext& context, std::string prefix, std::optional<Group> group,
+              const BodyDef& def)
+      : ParameterWidgets(context, std::move(prefix)), group_(group), copy_(is_copy(def)) {
+    if (!def.name.empty()) let_pin({def.name, {}, {}});
+  }
   bool any_common = false;  ///< some of the values shown are common to all copies
 
   template <class T>
@@ -58,7 +62,7 @@ class BodyWidgets : public ParameterWidgets {
                          p.name == "volumes" || p.name == "volumes_level";
     const Group group = in_look_ ? Group::look : group_of(p.name);
     if constexpr (requires { ParameterWidgets::field(value, p); })
-      if (!of_file && group == group_) {
+      if (!of_file && (!group_ || group == *group_)) {
         const bool common = copy_ && (in_look_ || is_of_all_copies(p.name));
         any_common = any_common || common;
         ImGui::BeginDisabled(common);
@@ -85,7 +89,7 @@ class BodyWidgets : public ParameterWidgets {
   void map(NamedList<T>&, const Parameter&) {}
 
  private:
-  Group group_;
+  std::optional<Group> group_;
   bool copy_;
   bool in_look_ = false;
 };
@@ -107,29 +111,39 @@ BodyDef at_this_moment(const BodyDef& def, const BodyFrame& body, const BodyInfo
   return now;
 }
 
-std::string undo_step(const PanelContext& context, const BodyDef& def, const std::string& value) {
-  const std::string name =
-      def.name.empty() ? fmt::format("body {}", context.model.selected.index) : def.name;
+std::string undo_step(BodyId id, const BodyDef& def, const std::string& value) {
+  const std::string name = def.name.empty() ? fmt::format("body {}", id.index) : def.name;
   return fmt::format("Change {} of {}", value, name);
+}
+
+BodyDescription shown_description(const BodyFrame& body, const BodyInfo& info, const BodyDef& def) {
+  BodyDescription now = describe_body(at_this_moment(def, body, info));
+  if (info.type == BodyType::dynamic) now.mass = info.mass;
+  return now;
+}
+
+/// Draws the widgets, and asks for what was changed.
+void edit_body_values(PanelContext& context, BodyId id, const BodyDef& def,
+                      const BodyDescription& before, BodyWidgets& widgets) {
+  BodyDescription now = before;
+  BodyDescription::parameters(widgets, now);
+  if (widgets.changed)
+    context.ask(EditBody{id, undo_step(id, def, widgets.edited),
+                         [before, now](BodyDef& d) { apply_changes(before, now, d); }});
 }
 
 void draw_body_values(PanelContext& context, const BodyFrame& body, const BodyInfo& info,
                       const BodyDef& def) {
-  BodyDescription now = describe_body(at_this_moment(def, body, info));
-  if (info.type == BodyType::dynamic) now.mass = info.mass;
-  const BodyDescription before = now;
+  const BodyDescription before = shown_description(body, info, def);
   const std::pair<const char*, Group> groups[] = {
       {"Place and motion", Group::motion}, {"Body", Group::body}, {"Look", Group::look}};
   for (const auto& [title, group] : groups) {
     const bool open = ImGui::CollapsingHeader(title);
     context.host.mark(fmt::format("inspector.group.{}", int(group)));
     if (!open) continue;
-    BodyWidgets widgets(context, "inspector", group, is_copy(def));
-    BodyDescription::parameters(widgets, now);
+    BodyWidgets widgets(context, "inspector", group, def);
+    edit_body_values(context, body.id, def, before, widgets);
     if (widgets.any_common) say_it_is_of_all_copies(context, def);
-    if (widgets.changed)
-      context.ask(EditBody{body.id, undo_step(context, def, widgets.edited),
-                           [before, now](BodyDef& d) { apply_changes(before, now, d); }});
   }
 }
 
@@ -186,11 +200,11 @@ bool draw_removal(PanelContext& context, const BodyDef& def, size_t index) {
   ImGui::PopID();
   context.host.mark(fmt::format("inspector.shape.{}.remove", index));
   if (remove)
-    context.ask(
-        EditBody{context.model.selected, undo_step(context, def, "shapes"), [index](BodyDef& d) {
-                   if (index < d.shapes.size() && d.shapes.size() > 1)
-                     d.shapes.erase(d.shapes.begin() + std::ptrdiff_t(index));
-                 }});
+    context.ask(EditBody{context.model.selected, undo_step(context.model.selected, def, "shapes"),
+                         [index](BodyDef& d) {
+                           if (index < d.shapes.size() && d.shapes.size() > 1)
+                             d.shapes.erase(d.shapes.begin() + std::ptrdiff_t(index));
+                         }});
   return remove;
 }
 
@@ -225,7 +239,7 @@ void draw_shape_choice(PanelContext& context, const BodyDef& def) {
       const std::string name(entry.name);
       if (ImGui::Selectable(label_of(name).c_str()))
         context.ask(EditBody{
-            context.model.selected, undo_step(context, def, "shapes"),
+            context.model.selected, undo_step(context.model.selected, def, "shapes"),
             [type = entry.type](BodyDef& d) { d.shapes.push_back(fresh_shape(d, type)); }});
       context.host.mark("inspector.add_shape." + name);
     }
@@ -249,20 +263,22 @@ void draw_name(PanelContext& context, const BodyDef& def) {
   tooltip_with_key(context, "what the scene calls it, wherever it is named", {});
 }
 
-void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) {
+/// Where the values of a shape and its material are, which are called "shape.0.radius".
+PinOwner place_of_shape(const BodyDef& def, size_t index) {
+  return {def.name, {}, fmt::format("shape.{}.", index)};
+}
+
+/// Draws the widgets of a shape and its material, and asks for what was changed.
+void edit_shape_values(PanelContext& context, BodyId id, const BodyDef& def, size_t index,
+                       MaterialWidgets& widgets) {
   BodyShapeDef part = def.shapes[index];
-  const std::string prefix = fmt::format("inspector.shape.{}", index);
-  MaterialWidgets widgets(context, prefix);
   const auto ask = [&](std::function<void(BodyDef&)> change) {
-    context.ask(EditBody{context.model.selected, undo_step(context, def, widgets.edited),
-                         std::move(change)});
+    context.ask(EditBody{id, undo_step(id, def, widgets.edited), std::move(change)});
   };
-  if (!is_copy(def) && draw_removal(context, def, index)) return;
   ImGui::BeginDisabled(is_copy(def));
   bool shape_changed = shape_numbers(widgets, part.shape);
   if (!shape_changed && !is_of_mesh(part)) shape_changed = shape_place(widgets, part.pose);
   ImGui::EndDisabled();
-  if (is_copy(def)) say_it_is_of_all_copies(context, def);
   if (shape_changed) {
     // If the mass was not given but computed from the shapes, it is computed again.
     ask([index, shape = part.shape, pose = part.pose](BodyDef& d) {
@@ -287,6 +303,14 @@ void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) 
   });
 }
 
+void draw_shape_values(PanelContext& context, const BodyDef& def, size_t index) {
+  if (!is_copy(def) && draw_removal(context, def, index)) return;
+  if (is_copy(def)) say_it_is_of_all_copies(context, def);
+  MaterialWidgets widgets(context, fmt::format("inspector.shape.{}", index));
+  if (!def.name.empty()) widgets.let_pin(place_of_shape(def, index));
+  edit_shape_values(context, context.model.selected, def, index, widgets);
+}
+
 }  // namespace
 
 void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef& def) {
@@ -307,6 +331,24 @@ void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef&
   if (def.shapes.size() > most)
     small_text(context, fmt::format("and {} more shapes", def.shapes.size() - most),
                palette::faint);
+}
+
+void draw_pinned_body_value(PanelContext& context, const Pin& pin, const std::string& mark,
+                            const BodyFrame& body, const BodyDef& def) {
+  const auto slot = find_slot(*context.model.frame, body.id);
+  if (!slot) return;
+  for (size_t i = 0; i < def.shapes.size(); ++i) {
+    const PinOwner place = place_of_shape(def, i);
+    if (!pin.value.starts_with(place.prefix)) continue;
+    MaterialWidgets widgets(context, mark + "." + place.prefix.substr(0, place.prefix.size() - 1));
+    widgets.let_pin(place);
+    widgets.draw_only(pin);
+    return edit_shape_values(context, body.id, def, i, widgets);
+  }
+  BodyWidgets widgets(context, mark, std::nullopt, def);
+  widgets.draw_only(pin);
+  edit_body_values(context, body.id, def,
+                   shown_description(body, context.model.frame->info(*slot), def), widgets);
 }
 
 }  // namespace tumble

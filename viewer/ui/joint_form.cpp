@@ -30,6 +30,8 @@ struct Shown {
   size_t k;
   const JointCoordinate& coordinate;
   std::string prefix;
+  std::string body;           ///< through which it is shown
+  const Pin* only = nullptr;  ///< null: all values are drawn
 
   double unit() const { return coordinate.angle ? degree : 1; }
   std::string_view value_unit() const { return coordinate.angle ? "deg" : "m"; }
@@ -50,6 +52,9 @@ struct Shown {
 void number(const Shown& s, double shown_now, const Parameter& p, double unit,
             const std::function<void(CoordinateDrive&, double)>& set) {
   ParameterWidgets widgets(s.context, s.prefix);
+  if (!s.body.empty() && !s.joint.def.name.empty())
+    widgets.let_pin({s.body, s.joint.def.name, std::string(s.coordinate.name) + "."});
+  if (s.only) widgets.draw_only(*s.only);
   double value = shown_now;
   widgets.field(value, p);
   if (widgets.changed)
@@ -59,6 +64,7 @@ void number(const Shown& s, double shown_now, const Parameter& p, double unit,
 /// A switch for an optional part of the joint's drive.
 bool part(const Shown& s, const char* name, bool on,
           const std::function<void(CoordinateDrive&, bool)>& set) {
+  if (s.only) return on;
   bool wanted = on;
   if (toggle(s.context, fmt::format("{}.{}", s.prefix, name), name, wanted))
     s.ask(name, [set, wanted](CoordinateDrive& d) { set(d, wanted); });
@@ -120,7 +126,8 @@ void draw_motor(const Shown& s, const CoordinateMotor& motor, double value_now) 
   constexpr std::array<std::string_view, 4> kinds = {"none", "velocity", "position", "force"};
   ParameterWidgets widgets(s.context, s.prefix);
   size_t kind = size_t(motor.kind);
-  if (widgets.choice(kind, kinds, {.name = "motor", .doc = "what drives this coordinate"}))
+  if (!s.only &&
+      widgets.choice(kind, kinds, {.name = "motor", .doc = "what drives this coordinate"}))
     s.ask("motor",
           [made = new_motor(MotorKind(kind), value_now)](CoordinateDrive& d) { d.motor = made; });
   if (motor.kind == MotorKind::none) return;
@@ -129,6 +136,7 @@ void draw_motor(const Shown& s, const CoordinateMotor& motor, double value_now) 
   const std::string_view unit = position                            ? s.value_unit()
                                 : motor.kind == MotorKind::velocity ? s.rate_unit()
                                                                     : s.force_unit();
+  if (motor.course && s.only) return;
   if (motor.course)
     note("Its target changes over time, as the scene's file says.");
   else
@@ -176,8 +184,9 @@ void draw_spring(const Shown& s, const CoordinateSpring& spring, double value_no
 
 void draw_coordinate(const Shown& s, const CoordinateFrame& now) {
   const CoordinateDrive& drive = s.joint.def.drives[s.k];
-  value_row(s.coordinate.name, fmt::format("{:.4g} {}   {:.3g} {}", now.value / s.unit(),
-                                           s.value_unit(), now.rate, s.rate_unit()));
+  if (!s.only)
+    value_row(s.coordinate.name, fmt::format("{:.4g} {}   {:.3g} {}", now.value / s.unit(),
+                                             s.value_unit(), now.rate, s.rate_unit()));
   draw_limits(s, drive.limits, now.value);
   draw_motor(s, drive.motor, now.value);
   draw_spring(s, drive.spring, now.value);
@@ -191,7 +200,7 @@ void draw_coordinate(const Shown& s, const CoordinateFrame& now) {
           .max = 1e12,
           .doc = "inertia of a geared rotor"},
          1, [](CoordinateDrive& d, double v) { d.armature = v; });
-  if (drive.couple) note("It follows another coordinate, as by gears.");
+  if (drive.couple && !s.only) note("It follows another coordinate, as by gears.");
 }
 
 /// The force and torque at which the joint breaks.
@@ -240,8 +249,12 @@ void draw_joint(PanelContext& context, const SelectedJoint& joint, const JointFr
   context.host.mark(fmt::format("joint.{}", index));
   if (!open) return;
   for (size_t k = 0; k < kind.coordinates.size(); ++k) {
-    const Shown shown{context, joint, k, kind.coordinates[k],
-                      fmt::format("joint.{}.{}", index, kind.coordinates[k].name)};
+    const Shown shown{context,
+                      joint,
+                      k,
+                      kind.coordinates[k],
+                      fmt::format("joint.{}.{}", index, kind.coordinates[k].name),
+                      context.model.selected_def ? context.model.selected_def->name : ""};
     ImGui::PushID(int(k));
     draw_coordinate(shown, now.coordinates[k]);
     ImGui::PopID();
@@ -274,6 +287,19 @@ void draw_joint_form(PanelContext& context) {
     ImGui::PushID(int(i));
     draw_joint(context, (*joints)[i], *now, i);
     ImGui::PopID();
+  }
+}
+
+void draw_pinned_joint_value(PanelContext& context, const Pin& pin, const std::string& mark,
+                             const SelectedJoint& joint) {
+  const JointFrame* now = frame_of(*context.model.frame, joint.id);
+  if (!now) return;
+  const JointKindEntry& kind = entry_of(joint.def.kind);
+  for (size_t k = 0; k < kind.coordinates.size(); ++k) {
+    const std::string name(kind.coordinates[k].name);
+    if (pin.value.starts_with(name + "."))
+      draw_coordinate({context, joint, k, kind.coordinates[k], mark + "." + name, pin.body, &pin},
+                      now->coordinates[k]);
   }
 }
 

@@ -6,5 +6,8 @@ namespace tumble {
 /// Draws editable fields for the joints of the selected body: their coordinates, and the limits,
 /// motors, springs and friction along them.
 void draw_joint_form(PanelContext& context);
+/// Draws one of these values of any joint. Its widget is called by `mark` and the pin's value.
+void draw_pinned_joint_value(PanelContext& context, const Pin& pin, const std::string& mark,
+                             const SelectedJoint& joint);
 
 }  // namespace tumble

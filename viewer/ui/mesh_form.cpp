@@ -4,6 +4,7 @@
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ void draw_row(PanelContext& context, const RepresentationFacts& f, bool in_use) 
     ImGui::TableNextColumn();
     small_text(context, text, in_use ? palette::green : palette::dim);
   };
-  cell(label_of(enum_name(f.mode)));
+  cell(std::string(words_of(f.mode)));
   if (!f.refusal.empty()) {
     cell("-");
     tooltip_with_key(context, f.refusal, {});
@@ -57,6 +58,36 @@ void draw_comparison(PanelContext& context, const MeasuredMesh& measured, MeshMo
 
 }  // namespace
 
+std::string_view words_of(MeshMode mode) {
+  switch (mode) {
+    case MeshMode::triangle_mesh:
+      return "its triangles";
+    case MeshMode::convex_hull:
+      return "its convex hull";
+    case MeshMode::decomposition:
+      return "convex pieces";
+    case MeshMode::field:
+      return "a distance field";
+    case MeshMode::fit:
+      return "a simple shape";
+  }
+  return "";
+}
+
+bool choose_mesh_mode(ParameterWidgets& widgets, MeshMode& mode, std::string_view help) {
+  const auto& all = EnumNames<MeshMode>::values;
+  std::array<std::string_view, all.size()> names, words;
+  size_t index = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    names[i] = all[i].first;
+    words[i] = words_of(all[i].second);
+    if (all[i].second == mode) index = i;
+  }
+  if (!widgets.choice(index, names, {.name = "mode", .doc = help}, words)) return false;
+  mode = all[index].second;
+  return true;
+}
+
 void draw_mesh_form(PanelContext& context, const BodyDef& def) {
   const std::vector<ShapeGroup> groups = shape_groups(def);
   constexpr size_t most = 8;
@@ -67,11 +98,10 @@ void draw_mesh_form(PanelContext& context, const BodyDef& def) {
     ImGui::PushID(int(g));
     ParameterWidgets widgets(context, fmt::format("inspector.mesh.{}", g));
     MeshMode mode = source->how.mode;
-    widgets.field(mode, {.name = "mode", .doc = "what the mesh collides as; 9 draws it"});
-    if (mode != source->how.mode)
+    if (choose_mesh_mode(widgets, mode, "what takes the place of the mesh in contacts; 9 draws it"))
       context.ask(ChangeMeshMode{
           context.model.selected, g, mode, source,
-          fmt::format("Let the mesh of {} collide as {}", def.name, label_of(enum_name(mode)))});
+          fmt::format("Let the mesh of {} collide as {}", def.name, words_of(mode))});
     if (context.model.changing_mesh) small_text(context, "being made ...", palette::faint);
     const MeasuredMesh* measured = context.model.measured_mesh.get();
     if (measured && measured->mesh == source->mesh) {

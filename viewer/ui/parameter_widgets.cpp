@@ -42,11 +42,15 @@ constexpr double fault_seconds = 6;
 /// Share of a line's width for labels.
 constexpr float label_share = 0.56f;
 
+/// Width of the button that pins a value [UI units].
+constexpr float pin_width = 14;
+
 }  // namespace
 
 std::string label_of(std::string_view name) {
   if (name == "tick_hz") return "tick rate";
   if (name == "sleep_speed") return "sleep speed / sqrt(g r)";
+  if (name == "mode") return "collides as";  // of a mesh
   if (name == "euler_deg") return "turned about x, y, z";
   if (name.ends_with("_deg")) name.remove_suffix(4);
   std::string label(name);
@@ -122,19 +126,34 @@ std::string unit_words(std::string_view unit) {
   return out;
 }
 
+bool ParameterWidgets::slider(double& value, const Parameter& p, const char* format) {
+  auto& ranges = context_.state.pins.ranges;
+  SliderRange& range = ranges[mark_name(p)];
+  if (range.most <= range.least || value < range.least || value > range.most)
+    range = slider_range(value, p.min, p.max);
+  const bool pulled =
+      ImGui::SliderScalar(id(p), ImGuiDataType_Double, &value, &range.least, &range.most, format);
+  if (ImGui::IsItemDeactivated()) ranges.erase(mark_name(p));  // the next pull reaches farther
+  return pulled;
+}
+
 void ParameterWidgets::field(double& value, const Parameter& p) {
-  begin(p);
+  if (skips(p)) return;
+  begin(p, only_.has_value(), true);
   double v = shown_number(value, p);
   const float speed = float(std::max(std::abs(v) * 0.01, 1e-3));
-  const std::string format = p.unit.empty() ? "%.4g" : fmt::format("%.4g {}", unit_words(p.unit));
-  if (ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr, nullptr, format.c_str()) &&
-      takes(fault_of(v, p), p))
-    value = v;
+  const std::string format =
+      p.unit.empty() || only_ ? "%.4g" : fmt::format("%.4g {}", unit_words(p.unit));
+  const bool pulled = only_ ? slider(v, p, format.c_str())
+                            : ImGui::DragScalar(id(p), ImGuiDataType_Double, &v, speed, nullptr,
+                                                nullptr, format.c_str());
+  if (pulled && takes(fault_of(v, p), p)) value = v;
   end(p);
 }
 
 void ParameterWidgets::field(int& value, const Parameter& p) {
-  begin(p);
+  if (skips(p)) return;
+  begin(p, only_.has_value(), true);
   int v = value;
   if (ImGui::DragInt(id(p), &v, 0.1f, int(std::max(p.min, -1e6)), int(std::min(p.max, 1e6))) &&
       takes(fault_of(v, p), p))
@@ -143,12 +162,14 @@ void ParameterWidgets::field(int& value, const Parameter& p) {
 }
 
 void ParameterWidgets::field(bool& value, const Parameter& p) {
+  if (only_) return;
   if (toggle(context_, mark_name(p), label_of(p.name).c_str(), value)) note_change(p);
   tooltip_with_key(context_, p.doc, {});
 }
 
 void ParameterWidgets::field(Vec3& value, const Parameter& p) {
-  begin(p, true);
+  if (skips(p)) return;
+  begin(p, true, true);
   Vec3 v(shown_number(value.x(), p), shown_number(value.y(), p), shown_number(value.z(), p));
   const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
   if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
@@ -166,6 +187,7 @@ void ParameterWidgets::field(Vec3& value, const Parameter& p) {
 }
 
 void ParameterWidgets::field(TickRate& value, const Parameter& p) {
+  if (only_) return;
   begin(p);
   auto hz = int(std::lround(double(value.num) / double(value.den)));
   if (ImGui::DragInt(id(p), &hz, 1, int(p.min), 2000, "%d Hz") && takes(fault_of(hz, p), p))
@@ -174,6 +196,7 @@ void ParameterWidgets::field(TickRate& value, const Parameter& p) {
 }
 
 bool ParameterWidgets::over_time(bool& on, const Parameter& p) {
+  if (only_) return false;
   const std::string label = label_of(p.name) + " over time";
   if (!toggle(context_, mark_name(p) + ".over_time", label.c_str(), on)) return false;
   tooltip_with_key(context_, "follows an expression in t [s]", {});
@@ -182,6 +205,7 @@ bool ParameterWidgets::over_time(bool& on, const Parameter& p) {
 }
 
 void ParameterWidgets::course(Varying& value, const Parameter& p) {
+  if (only_) return;
   const TimeCourse& now = *value.course;
   if (now.text().empty())
     return value_row(label_of(p.name), fmt::format("a table of {} times", now.points().size()));
@@ -229,6 +253,7 @@ void ParameterWidgets::field(VaryingVec3& value, const Parameter& p) {
 }
 
 void ParameterWidgets::field(Colour& value, const Parameter& p) {
+  if (only_) return;
   begin(p);
   float rgb[3] = {float(value.r), float(value.g), float(value.b)};
   if (ImGui::ColorEdit3(id(p), rgb, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel)) {
@@ -239,6 +264,7 @@ void ParameterWidgets::field(Colour& value, const Parameter& p) {
 }
 
 void ParameterWidgets::field(std::string& value, const Parameter& p) {
+  if (only_) return;
   const std::vector<std::string> names = known_names(p.name);
   if (names.empty()) return value_row(label_of(p.name), value);
   const std::vector<std::string_view> views(names.begin(), names.end());
@@ -247,19 +273,23 @@ void ParameterWidgets::field(std::string& value, const Parameter& p) {
 }
 
 bool ParameterWidgets::choice(size_t& index, std::span<const std::string_view> names,
-                              const Parameter& p) {
+                              const Parameter& p, std::span<const std::string_view> words) {
+  const auto shown = [&](size_t i) {
+    return words.empty() ? words_of(names[i]) : std::string(words[i]);
+  };
+  if (only_) return false;
   // If one of the fields does not fit beside the label, all are placed below it.
   float widest = 0;
-  for (const std::string_view name : names)
-    widest = std::max(widest, ImGui::CalcTextSize(words_of(name).c_str()).x);
+  for (size_t i = 0; i < names.size(); ++i)
+    widest = std::max(widest, ImGui::CalcTextSize(shown(i).c_str()).x);
   const float room = (1 - label_share) * ImGui::GetContentRegionAvail().x -
                      ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
   begin(p, widest > room);
   bool chosen = false;
-  const std::string now = index < names.size() ? words_of(names[index]) : std::string();
+  const std::string now = index < names.size() ? shown(index) : std::string();
   if (ImGui::BeginCombo(id(p), now.c_str())) {
     for (size_t i = 0; i < names.size(); ++i) {
-      const bool clicked = ImGui::Selectable(words_of(names[i]).c_str(), i == index);
+      const bool clicked = ImGui::Selectable(shown(i).c_str(), i == index);
       context_.host.mark(fmt::format("{}.{}", mark_name(p), names[i]));
       if (!clicked || i == index) continue;
       index = i;
@@ -272,7 +302,39 @@ bool ParameterWidgets::choice(size_t& index, std::span<const std::string_view> n
   return chosen;
 }
 
+bool ParameterWidgets::skips(const Parameter& p) const {
+  return only_ && pin_of(p).value != only_->value;
+}
+
+Pin ParameterWidgets::pin_of(const Parameter& p) const {
+  if (!place_) return {};
+  return {place_->body, place_->joint, place_->prefix + std::string(p.name)};
+}
+
+/// At the right end of the label, before the field: a pin that is seen where it is in, or where the
+/// pointer is.
+void ParameterWidgets::pin_button(const Parameter& p) {
+  const Pin pin = pin_of(p);
+  const bool in = context_.state.pins.has(pin);
+  const std::string mark = mark_name(p) + ".pin";
+  const float height = ImGui::GetFrameHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (ImGui::InvisibleButton(mark.c_str(), {pin_width, height})) context_.state.pins.flip(pin);
+  const bool near = ImGui::IsItemHovered();
+  context_.host.mark(mark);
+  tooltip_with_key(context_, in ? "take it off Settings" : "pin: a slider for it in Settings", {});
+  const ImVec2 c(at.x + 0.5f * pin_width, at.y + 0.5f * height);
+  const uint32_t colour = near ? palette::accent
+                          : in ? palette::dim
+                               : palette::faded(palette::faint, 0.45f);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float tilt = in ? 0 : 2.5f;  // what is in stands straight
+  list.AddCircleFilled({c.x + tilt, c.y - 3}, 2.6f, colour, 12);
+  list.AddLine({c.x + tilt, c.y - 2}, {c.x - tilt, c.y + 5}, colour, 1.3f);
+}
+
 void ParameterWidgets::heading(const Parameter& p) {
+  if (only_) return;
   ImGui::Dummy(ImVec2(0, 2));
   small_text(context_, label_of(p.name), palette::accent);
 }
@@ -302,18 +364,26 @@ void ParameterWidgets::note_change(const Parameter& p) {
   edited = label_of(p.name);
 }
 
-void ParameterWidgets::begin(const Parameter& p, bool own_line) {
+void ParameterWidgets::begin(const Parameter& p, bool own_line, bool number) {
   std::string label = label_of(p.name);
+  if (only_)
+    label = fmt::format("{}: {}", only_->joint.empty() ? only_->body : only_->joint, label);
   if (own_line && !p.unit.empty()) label += fmt::format(" [{}]", unit_words(p.unit));
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
+  const bool pinned = number && place_;
+  const float end = width * (own_line ? 1 : label_share) - 4 - (pinned ? pin_width : 0);
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::PushClipRect(at, {at.x + width * (own_line ? 1 : label_share) - 4, at.y + 30}, true);
+  ImGui::PushClipRect(at, {at.x + end, at.y + 30}, true);
   ImGui::TextUnformatted(label.c_str());
   ImGui::PopClipRect();
   ImGui::PopStyleColor();
   tooltip_with_key(context_, p.doc, {});
+  if (pinned) {
+    ImGui::SameLine(x + end);
+    pin_button(p);
+  }
   if (!own_line) ImGui::SameLine(x + width * label_share);
   ImGui::SetNextItemWidth(own_line ? width : width * (1 - label_share));
 }

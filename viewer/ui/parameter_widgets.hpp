@@ -2,6 +2,7 @@
 #include "engine/core/parameters.hpp"
 #include "engine/math/types.hpp"
 #include "engine/scene/description/values.hpp"
+#include "viewer/ui/pins.hpp"
 #include "viewer/ui/widgets.hpp"
 
 #include <optional>
@@ -39,6 +40,10 @@ class ParameterWidgets {
   /// Widgets are named "PREFIX.NAME" for scripts, the components of a vector "PREFIX.NAME.x".
   ParameterWidgets(PanelContext& context, std::string prefix)
       : context_(context), prefix_(std::move(prefix)) {}
+  /// Each number gets a button that pins it.
+  void let_pin(PinOwner place) { place_ = std::move(place); }
+  /// Draws only this value of that place, as a slider under a line that says whose it is.
+  void draw_only(const Pin& pin) { only_ = pin; }
   bool changed = false;  ///< a value was edited
   std::string edited;    ///< the name of that value for display
 
@@ -54,8 +59,10 @@ class ParameterWidgets {
   /// A choice, if the possible names for this parameter are known; otherwise the value is only
   /// shown.
   void field(std::string& value, const Parameter& p);
-  /// A choice of one of these names; true if it was changed.
-  bool choice(size_t& index, std::span<const std::string_view> names, const Parameter& p);
+  /// A choice of one of these names; true if it was changed. `words`: what people read for each,
+  /// where that is not the name itself.
+  bool choice(size_t& index, std::span<const std::string_view> names, const Parameter& p,
+              std::span<const std::string_view> words = {});
   /// Values that are not given are not shown.
   template <class T>
   void field(std::optional<T>& value, const Parameter& p) {
@@ -83,7 +90,8 @@ class ParameterWidgets {
   /// Whether a value with this fault ("": none) is accepted; if not, the fault is shown.
   bool takes(std::string fault, const Parameter& p);
   void note_change(const Parameter& p);
-  void begin(const Parameter& p, bool own_line = false);
+  /// `number`: it can be pinned, where values can.
+  void begin(const Parameter& p, bool own_line = false, bool number = false);
   void end(const Parameter& p);
   std::string mark_name(const Parameter& p) const;
   const char* id(const Parameter& p);
@@ -92,10 +100,19 @@ class ParameterWidgets {
   /// A field for the expression of a number over time; a table is only shown.
   void course(Varying& value, const Parameter& p);
 
+  /// Whether a value is not the only one that is to be drawn.
+  bool skips(const Parameter& p) const;
+
   PanelContext& context_;
   std::string prefix_;
 
  private:
+  Pin pin_of(const Parameter& p) const;
+  void pin_button(const Parameter& p);
+  bool slider(double& value, const Parameter& p, const char* format);
+
+  std::optional<PinOwner> place_;  ///< none: values are not pinned here
+  std::optional<Pin> only_;
   std::string id_;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/dynamics/bodies/body.hpp"
 #include "engine/scene/build/mesh_representations.hpp"
 #include "engine/scene/description/part.hpp"
+#include "engine/scene/saving/scene_edits.hpp"
 #include "engine/world/events/world_event.hpp"
 #include "engine/world/frame.hpp"
 #include "engine/world/microscope/microscope.hpp"
@@ -19,6 +20,7 @@
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/lesson_view.hpp"
 #include "viewer/ui/measures.hpp"
+#include "viewer/ui/pins.hpp"
 #include "viewer/ui/question.hpp"
 #include "viewer/ui/ruler_view.hpp"
 #include "viewer/ui/save_preview.hpp"
@@ -76,6 +78,13 @@ struct SelectedJoint {
   BodyId other;  ///< the other body; null: the world
 };
 
+/// A body with a pinned value, and its joints.
+struct PinnedBody {
+  BodyId id;
+  std::shared_ptr<const BodyDef> def;                          ///< null: not known yet
+  std::shared_ptr<const std::vector<SelectedJoint>> joints{};  ///< null: not known yet
+};
+
 /// A comparison of all collision representations of a mesh.
 struct MeasuredMesh {
   std::shared_ptr<const TriangleMesh> mesh;
@@ -114,6 +123,10 @@ struct UiModel {
   uint64_t next_tick = 1;                 ///< the tick being computed, or to be computed next
   double under_way_seconds = 0;           ///< how long it has been computed; 0: it is not [s]
   uint64_t way_to = 0;                    ///< the tick being sought but not reached; 0: none
+  bool searching = false;                 ///< the next event is being looked for
+  double trail = 0;                       ///< length of the paths behind moving bodies [s]; 0: none
+  size_t past_bytes = 0;                  ///< memory of the past that can be gone back to [bytes],
+  size_t past_budget = 0;                 ///< at most [bytes]
   std::string asking;                     ///< the query that the world is answering; "": none
   double asking_seconds = 0;              ///< for how long it has been [s]
   std::optional<Error> fault;             ///< why the simulation stopped
@@ -145,6 +158,7 @@ struct UiModel {
   std::shared_ptr<const BodyDef> selected_def;  ///< null: nothing is selected, or not known yet
   /// Joints of the selected body; null: nothing is selected, or not known yet.
   std::shared_ptr<const std::vector<SelectedJoint>> selected_joints;
+  std::map<std::string, PinnedBody> pinned;            ///< by name, as far as they exist
   std::shared_ptr<const MeasuredMesh> measured_mesh;   ///< the newest comparison; null: none
   bool measuring_mesh = false, changing_mesh = false;  ///< under way
   bool reading_mesh = false;                           ///< that of the palette
@@ -256,6 +270,8 @@ struct EditBody {
   BodyId id;
   std::string what;  ///< description of the change for undo
   std::function<void(BodyDef&)> change;
+  std::vector<WrittenKey> written = {};  ///< what the file says of it, where that was typed
+  bool at_start = false;                 ///< of how it begins: only before the first tick
 };
 /// Changes the collision representation of a mesh, as soon as the new one has been computed.
 struct ChangeMeshMode {
@@ -425,6 +441,8 @@ struct UiState {
   TypedDisplacement typed;                          ///< in place of a drag
   uint64_t scrubbed_to = 0;                         ///< the tick that the timeline asked for last
   std::map<std::string, double> pulled_parameters;  ///< of the scene, while they are being pulled
+  std::optional<double> trail;                      ///< length of trails [s]; none: the scene's
+  Pins pins;                                        ///< values of the inspector, for Settings
   PictureQuality quality = PictureQuality::automatic;
   Theme theme = Theme::dark;
   double zoom = 1;  ///< of panels and text, times the monitor's scale

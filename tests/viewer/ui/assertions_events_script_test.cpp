@@ -74,6 +74,7 @@ TEST_CASE("Ctrl+. goes to the impact of a falling ball, the list shows it and le
   rig.play("key Space\nwait 2\nkey Ctrl+.\nwait 3");
   const uint64_t impact = rig.tick();
   CHECK(std::fabs(double(impact) / 60 - fall) < 0.04);
+  CHECK(says(rig, "impact: ground against ball"));
   rig.play("key V\nwait 3");
   REQUIRE(rig.app->ui_state().shows(PanelId::events));
   CHECK(rig.app->ui().find("events.0"));
@@ -91,6 +92,12 @@ TEST_CASE("Ctrl+. goes to the impact of a falling ball, the list shows it and le
   rig.app->ui_state().event_filter.least_impulse = 1e6;
   rig.play("wait 2");
   CHECK_FALSE(rig.app->ui().find("events.0"));
+  rig.play("key Ctrl+.\nwait 3");
+  CHECK(rig.tick() == impact + 20 * 60);
+  CHECK(says(rig, "Nothing of this has happened in 20 s"));
+  CHECK(says(rig, "impact of at least 1e+06 N s"));
+  rig.app->ask(SeekTick{impact});
+  rig.play("wait 3");
   rig.app->ui_state().event_filter = {std::nullopt, "BALL", 0};
   rig.play("wait 2");
   CHECK(rig.app->ui().find("events.0"));

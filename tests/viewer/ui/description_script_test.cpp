@@ -5,6 +5,11 @@
 #include "tests/viewer/ui/laboratory.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <future>
+#include <thread>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -511,5 +516,147 @@ TEST_CASE("description: parts of robots are chosen by name, and so are joints of
   b.play("click description.add\nwait 2");
   CHECK_FALSE(b.rig.app->locate("description.add.elbow").has_value());
   CHECK(b.rig.app->locate("description.add.lift").has_value());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE(
+    "description: a course, what is drawn and sleep act at once where the run has not begun") {
+  Described b(R"x(  "bodies": {
+    "ground": { "type": "static", "shape": { "type": "half_space" }, "material": "wood" },
+    "cam": {
+      "type": "kinematic", "shape": { "type": "sphere", "radius": 0.5 }, "position": [0, 2, 0],
+      "course": { "x": "= 0.5*sin(2*t)" }, // to and fro
+      "drawn": [{ "type": "box", "size": [1, 1, 1] }]
+    },
+    "ball": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [3, 2, 0], "starts_asleep": false }
+  },
+  "cameras": { "main": { "position": [0, 2.5, 9], "target": [0, 1.5, 0] } })x");
+  const World* const before = &b.world();
+  const auto cam = [&] { return *b.world().body_def(b.world().find_body("cam")); };
+  b.go("bodies.cam.course");
+  b.type_in("x", "= 1 + 0.25*sin(3*t)");
+  b.go("bodies.ball");
+  b.play("click description.starts_asleep\nwait 4");
+  CHECK(&b.world() == before);  // without being opened anew
+  CHECK(place(b, "cam") == Vec3(1, 2, 0));
+  CHECK(b.world().body(b.world().find_body("ball"))->asleep);
+  const uint64_t now = b.hash();
+  const std::string text = b.saved();
+  CHECK(text == with(with(b.start, "= 0.5*sin(2*t)", "= 1 + 0.25*sin(3*t)"),
+                     R"("starts_asleep": false)", R"("starts_asleep": true)"));
+  for (int i = 0; i < 2; ++i) b.play("key Ctrl+Z\nwait 4");
+  CHECK(b.hash() == b.start_hash);
+  CHECK(b.saved() == b.start);
+  for (int i = 0; i < 2; ++i) b.play("key Ctrl+Shift+Z\nwait 4");
+  CHECK(b.hash() == now);
+  // What is drawn changes at any time; a course is one from the start, so that the run is another.
+  REQUIRE(b.rig.app->session().advance(30).ok());
+  b.play("wait 3");
+  const double there = 1 + 0.25 * std::sin(3 * 0.5);
+  CHECK(place(b, "cam").x() == doctest::Approx(there).epsilon(1e-12));
+  b.go("bodies.cam.drawn.0");
+  b.type_in("size.y", "0.25");
+  CHECK(&b.world() == before);
+  REQUIRE(cam().drawn.size() == 1);
+  CHECK(cam().drawn[0].shape.half_extents.y() == 0.125);
+  CHECK(place(b, "cam").x() == doctest::Approx(there).epsilon(1e-12));
+  CHECK(cam().course != nullptr);
+  CHECK(b.saved() == with(text, "[1, 1, 1]", "[1, 0.25, 1]"));
+  b.go("bodies.cam.course");
+  b.type_in("x", "= sin(t)");
+  CHECK(&b.world() != before);
+  CHECK(b.rig.tick() == 30);
+  CHECK(place(b, "cam").x() == doctest::Approx(std::sin(0.5)).epsilon(1e-12));
+  // Opened from the file, the world of the first two changes is the same.
+  REQUIRE(write_file(b.file, std::string_view(text)).ok());
+  b.rig.app->open(b.file);
+  b.play("wait 3");
+  CHECK(b.hash() == now);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: how a body begins is not changed where the run has begun meanwhile") {
+  Described b(two_bodies);
+  REQUIRE(b.rig.app->session().advance(1).ok());
+  b.play("wait 2");
+  const uint64_t now = b.hash();
+  b.rig.app->ask(EditBody{b.world().find_body("ball"),
+                          "Change position of ball",
+                          [](BodyDef& d) { d.pose.x.y() = 5; },
+                          {},
+                          true});
+  b.play("wait 3");
+  CHECK(b.hash() == now);
+  CHECK(says(b.rig, "the run has begun meanwhile"));
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: names of a robot's parts are those of the robot that is there now") {
+  Described b(two_bodies + R"(,
+  "robots": { "arm": { "file": "robots/arm.urdf", "position": [3, 0, 0] } })");
+  std::string other = *read_file(std::string(TUMBLE_SOURCE_DIR) + "/scenes/robots/arm.urdf");
+  for (size_t at = 0; (at = other.find("\"elbow\"", at)) != std::string::npos; at += 6)
+    other.replace(at, 7, "\"knee\"");
+  const auto file = b.rig.folder.path() / "other.urdf";
+  REQUIRE(write_file(file, std::string_view(other)).ok());
+  b.go("robots.arm");
+  b.add("start_deg");
+  b.save();
+  // The text stays and the place that is looked at: only the choice beside the file is another.
+  b.rig.app->open(OpenRequest{b.file, {"robots.arm.file=" + file.string()}, {}});
+  b.play("wait 4\nclick description.add\nwait 2");
+  CHECK(b.rig.app->locate("description.add.knee").has_value());
+  CHECK_FALSE(b.rig.app->locate("description.add.elbow").has_value());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: no picture waits for a slow tick after a change, which is kept later") {
+  const auto device = make_null_device();
+  Rig rig(*device, "first", true);
+  const std::string file = (rig.folder.path() / "mine.json").string();
+  const std::string start = "{\n  \"tumble_scene\": 1,\n" + two_bodies + "\n}\n";
+  REQUIRE(write_file(file, std::string_view(start)).ok());
+  rig.app->open(file);
+  const auto wait_for = [&](const auto& holds) {
+    for (int i = 0; i < 2000 && !holds(); ++i) {
+      rig.frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    REQUIRE(holds());
+  };
+  wait_for([&] { return rig.app->scene_name() != "first" && rig.tick() > 0; });
+  // The session is busy until it is let go.
+  std::promise<void> let_go;
+  rig.app->session().post([busy = let_go.get_future().share()](World&) { busy.wait(); });
+  const ScenePath radius = ScenePath{} / "bodies" / "ball" / "shape" / "radius";
+  const auto begun = std::chrono::steady_clock::now();
+  rig.app->ask(EditDescription{radius, EditDescription::How::set, "0.25"});
+  rig.app->ask(EditDescription{radius, EditDescription::How::set, "0.125"});
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+  CHECK(taken.count() < 0.4);  // it waited for half a second for each
+  let_go.set_value();
+  wait_for([&] {
+    if (!std::filesystem::exists(rig.unsaved())) return false;
+    for (const auto& kept : std::filesystem::directory_iterator(rig.unsaved()))
+      if (kept.path().extension() == ".json" &&
+          *read_file(kept.path()) == with(start, "0.5 }", "0.125 }"))
+        return true;
+    return false;
+  });
+  check_no_faults(*device);
+}
+
+TEST_CASE("description: what was saved is a part of the text that is changed next") {
+  Described b(two_bodies);
+  b.rig.app->ask(
+      EditBody{b.world().find_body("ball"), "Change mass of ball", [](BodyDef& d) { d.mass = 3; }});
+  b.play("wait 70");
+  const std::string saved = b.saved();
+  REQUIRE(saved.find("\"mass\": 3") != std::string::npos);
+  b.go("cameras.main");
+  b.type_in("position.x", "1");
+  b.play("wait 4");
+  CHECK(*b.world().body_def(b.world().find_body("ball"))->mass == 3);
+  CHECK(b.saved() == with(saved, "[0, 2.5, 9]", "[1, 2.5, 9]"));
   check_no_faults(*b.device);
 }

@@ -40,7 +40,7 @@ TEST_CASE(
   rig.play("click inspector.mesh.0.mode\nwait 2\nclick inspector.mesh.0.mode.decomposition");
   REQUIRE(wait_for(rig, [&] { return shapes() > 3; }));
   rig.play("wait 3\nkey Ctrl+Z\nwait 3");
-  CHECK(says(rig, "Taken back: Let the mesh of ring collide as decomposition"));
+  CHECK(says(rig, "Taken back: Let the mesh of ring collide as convex pieces"));
   CHECK(shapes() == 1);
   CHECK(state() == before);
   rig.play("key Ctrl+Y\nwait 3");

@@ -185,6 +185,30 @@ TEST_CASE(
   check_no_faults(*device);
 }
 
+TEST_CASE("trails are switched on for any scene, have the length that is chosen, and go with it") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1200, 900, 1};
+  const auto lines = [&] { return rig.app->picture().lines.size(); };
+  rig.play("wait 5\nclick bar.drawing\nwait 3");
+  REQUIRE(lines() == 0);
+  rig.play("click drawing.trails\nwait 40");
+  const size_t grown = lines();
+  CHECK(grown > 10);  // the ball falls
+  REQUIRE(rig.app->locate("drawing.trail_length").has_value());
+  // Pulled to a shorter length it begins anew, when the slider is let go.
+  rig.play("drag drawing.trail_length -60 0\nwait 2");
+  CHECK(rig.app->ui_state().trail.value_or(0) < 2);
+  CHECK(rig.app->ui_state().trail.value_or(0) > 0);
+  rig.play("key Space\nwait 2");
+  CHECK(lines() < grown);
+  rig.play("click drawing.trails\nwait 2");
+  CHECK(lines() == 0);  // at once, though time stands still
+  rig.play("drop second\nwait 3");
+  CHECK_FALSE(rig.app->ui_state().trail.has_value());
+  check_no_faults(*device);
+}
+
 TEST_CASE("arrows of velocity, momentum and total force, with their scales, also while paused") {
   const auto device = make_null_device();
   Rig rig(*device);

@@ -59,10 +59,10 @@ struct Rig {
   std::vector<std::string> wished;  ///< overrides of the scene that was opened last
   Application::Picture picture{800, 500, 1};
 
-  explicit Rig(Device& device, const std::string& scene = "first") {
+  explicit Rig(Device& device, const std::string& scene = "first", bool own_thread = false) {
     // The same letters on every machine, so that hashes can be compared.
     ApplicationOptions options;
-    options.own_thread = false;
+    options.own_thread = own_thread;
     options.threads = 1;
     options.shaders = *resource_path("shaders");
     options.scenes = {{"first", "the one that is open", "bodies", ""},

@@ -47,8 +47,12 @@ class DescriptionController {
   bool newer_than(size_t undo_steps) const {
     return has_draft() && undo_steps <= undo_steps_then_.back();
   }
-  /// Changes of the world are counted anew: all of them are newer.
-  void count_undo_steps_anew() { undo_steps_then_.assign(draft_.size(), 0); }
+  /// The scene was opened anew: changes of the world are counted from there, so that all of them
+  /// are newer, and the names of what robots bring along are those of the new world.
+  void begin_anew() {
+    undo_steps_then_.assign(draft_.size(), 0);
+    stale_ = true;
+  }
   /// The newest change of the draft is taken back; what it was.
   std::string take_back(const std::string& text, const std::filesystem::path& file);
   /// The draft is a scene now, or is not wanted any more.

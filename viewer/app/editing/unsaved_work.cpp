@@ -163,6 +163,17 @@ std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
   return std::nullopt;
 }
 
+void UnsavedWork::expect(std::string text) {
+  look_again();
+  expected_ = std::move(text);
+}
+
+void UnsavedWork::look_again() {
+  note();
+  expected_.reset();
+  since_ = seconds_between_looks;
+}
+
 void UnsavedWork::update(Session& session, const std::vector<UndoStepEdits>& undo_steps,
                          double dt) {
   since_ += dt;
@@ -218,6 +229,7 @@ std::optional<std::string> UnsavedWork::text_with(const std::string& text,
 }
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
+  if (!stale_) expected_.reset();  // else these are the changes before the one that is expected
   edits_ = std::move(edits);
   const std::optional<std::string> saved = text_with(file_.text, edits_);
   if (!saved) {  // what was kept last stays
@@ -248,6 +260,7 @@ void UnsavedWork::saved(const SceneFile& file) {
   file_.on_disk = file.on_disk;
   keep_in_.clear();
   any_ = false;
+  expected_.reset();
   stale_ = true;  // the newest change may have continued
 }
 

@@ -52,6 +52,11 @@ class UnsavedWork {
   std::filesystem::path free_name() const;
   /// To be called when changes were made, undone or continued.
   void note() { stale_ = true; }
+  /// To be called after note() where the scene's text with the change is known before the session
+  /// has answered: text() is that one until then.
+  void expect(std::string text);
+  /// The same as note() where what was expected does not hold any more, after undo and redo.
+  void look_again();
   /// To be called once per picture, with the changes in effect: after note() they are applied to
   /// the file's text.
   void update(Session& session, const std::vector<UndoStepEdits>& undo_steps, double dt);
@@ -69,10 +74,10 @@ class UnsavedWork {
   void saved(const SceneFile& file);
   /// Discards kept work.
   void throw_away(const std::filesystem::path& kept);
-  bool any() const { return any_; }
+  bool any() const { return expected_ ? *expected_ != file_.on_disk : any_; }
   /// The scene's text with the changes; the file's own text if there are none, or if they cannot be
   /// represented in it.
-  const std::string& text() const { return text_; }
+  const std::string& text() const { return expected_ ? *expected_ : text_; }
   /// The edits since the scene was opened, as last collected.
   const std::vector<SceneEdit>& edits() const { return edits_; }
 
@@ -96,6 +101,7 @@ class UnsavedWork {
   std::map<std::filesystem::path, ProcessLock> held_;
   SceneFile file_;
   std::string text_;
+  std::optional<std::string> expected_;  ///< the text, before the newest change was collected
   std::vector<SceneEdit> edits_;
   bool stale_ = false;  ///< the changes are not those collected last
   double since_ = 0;    ///< time since the last collection [s]

@@ -217,11 +217,15 @@ void Session::step_to_impact(double most_seconds) {
   step_until(strikes, most_seconds);
 }
 
-void Session::step_until(Found found, double most_seconds) {
+std::future<Session::Search> Session::step_until(Found found, double most_seconds) {
   set_paused(true);
-  enqueue([this, found = std::move(found), most_seconds] {
-    go_until(found, world_->time() + most_seconds);
-  });
+  auto search = std::make_shared<std::packaged_task<Search()>>(
+      [this, found = std::move(found), most_seconds] {
+        return timed([&] { return go_until(found, world_->time() + most_seconds); });
+      });
+  auto end = search->get_future();
+  enqueue([search] { (*search)(); });
+  return end;
 }
 
 void Session::seek(uint64_t tick) {
@@ -409,22 +413,33 @@ void Session::go_to(uint64_t tick) {
   publish(0);
 }
 
-void Session::go_until(const Found& found, double end) {
+Session::Search Session::go_until(const Found& found, double end) {
   {
     std::lock_guard lock(mutex_);
     fault_.reset();
+    counters_.searching = true;
   }
-  while (world_->time() < end) {
+  Search out = Search::nothing;
+  while (out == Search::nothing && world_->time() < end) {
     if (auto status = step_once(); !status) {
       fail(status.error());
+      out = Search::left;
       break;
     }
-    if (found(*previous_, *world_->frame())) break;
+    if (found(*previous_, *world_->frame())) {
+      out = Search::found;
+      break;
+    }
     std::lock_guard lock(mutex_);
-    if (quit_ || !posted_.empty() || !counters_.paused) break;
+    if (quit_ || !posted_.empty() || !counters_.paused) out = Search::left;
+  }
+  {
+    std::lock_guard lock(mutex_);
+    counters_.searching = false;
   }
   previous_ = world_->frame();
   publish(0);
+  return out;
 }
 
 void Session::note_rewind() {

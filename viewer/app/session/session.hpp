@@ -59,6 +59,7 @@ struct SessionCounters {
   /// two ticks.
   double under_way_seconds = 0;
   uint64_t way_to = 0;        ///< target of the seek under way; 0: none
+  bool searching = false;     ///< a search for something that happens is under way
   std::string asking;         ///< description of the query under way; "": none
   double asking_seconds = 0;  ///< how long that query has been under way [s]
 };
@@ -123,7 +124,9 @@ class Session {
   /// Steps in the same way to the first tick for which `found` returns true, given the frames
   /// before and after it.
   using Found = std::function<bool(const Frame& before, const Frame& after)>;
-  void step_until(Found found, double most_seconds);
+  /// How such a search ends; `left`: something else was requested.
+  enum class Search : uint8_t { found, nothing, left };
+  std::future<Search> step_until(Found found, double most_seconds);
   /// Goes back to the first tick in its original state, then applies `begin`; running or paused as
   /// before.
   void restart(std::function<void(World&)> begin = {});
@@ -187,7 +190,7 @@ class Session {
   Status follow_replay(bool anew = false);
   void publish(double span);
   void go_to(uint64_t tick);
-  void go_until(const Found& found, double end);
+  Search go_until(const Found& found, double end);
   void fail(const Error& error);
   void note_rewind();
   /// Calls ticks() and publishes the start time meanwhile; nested calls keep that of the outermost

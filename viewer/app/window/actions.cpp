@@ -38,11 +38,7 @@ void Application::perform(Action action) {
     case Action::step_forward_ten:
       return session().step(10);
     case Action::next_impact:
-      return session().step_until(
-          [watch = instruments_.events, filter = ui_.event_filter](const Frame&, const Frame&) {
-            return watch->just_happened(filter);
-          },
-          20);
+      return jump_to_event();
     case Action::step_back:
       return session().step(-1);
     case Action::step_back_ten:
@@ -457,7 +453,7 @@ void Application::begin_comparison(const WorldChoice& wanted) {
   const std::vector<WorldDifference> different = differences(of_file, wanted);
   const auto is_number = [](const WorldDifference& d) { return d.path.starts_with("parameters."); };
   if (std::ranges::none_of(different, is_number))
-    return second_.begin(session(), wanted, scene_.trail);
+    return second_.begin(session(), wanted, trail());
   if (recording_forbids("comparing from the start")) return;
   undo_steps_.finish(session(), options_.own_thread);
   OpenRequest request = scene_.request;
@@ -473,7 +469,7 @@ void Application::show_second(ComparisonController::Opened opened) {
     return ui_.toast(ToastKind::error, "The scene cannot be opened with the numbers of B",
                      {opened.scene.error().text()});
   restart(false);
-  second_.begin(session(), std::move(opened.choice), scene_.trail, opened.scene->world.get());
+  second_.begin(session(), std::move(opened.choice), trail(), opened.scene->world.get());
 }
 
 /// For a quantity added late the past is computed.

@@ -76,6 +76,8 @@ void Application::show(OpenedScene scene, bool goes_on) {
   ui_.shows(PanelId::microscope) = scene.microscope.has_value();
   ui_.content_height[size_t(PanelId::inspector)] = 0;
   switch_overlays(scene_.overlays, scene.overlays, ui_.overlays);
+  if (!goes_on) ui_.pins = {};
+  if (!goes_on) ui_.trail.reset();
   if (!goes_on) building_overlays_.end(scene.overlays, ui_.overlays);
   settings_.open(scene.world->settings());
   canvas_.open(scene.look, scene.trail);
@@ -148,6 +150,7 @@ void Application::look_at_view() {
   forget_what_is_gone();
   if (news != goes_on) undo_steps_.select_as_then(world_.frame(), selection_);
   tools_.selected_def.update(session(), world_.frame(), selection_.main());
+  tools_.pinned_defs.update(session(), world_.frame(), ui_.pins);
   take_mesh_modes();
   show_notices();
 }
@@ -216,6 +219,10 @@ UiModel Application::model() const {
   m.next_tick = counters.tick + 1;
   m.under_way_seconds = counters.under_way_seconds;
   m.way_to = counters.way_to;
+  m.searching = counters.searching;
+  m.trail = trail();
+  m.past_bytes = counters.keyframe_bytes;
+  m.past_budget = SessionOptions{}.keyframe_bytes;
   m.asking = counters.asking;
   m.asking_seconds = counters.asking_seconds;
   m.fault = world_.session().fault();
@@ -246,6 +253,7 @@ UiModel Application::model() const {
   m.lesson = lesson_view();
   m.selected_def = tools_.selected_def.def();
   m.selected_joints = tools_.selected_def.joints();
+  m.pinned = tools_.pinned_defs.all();
   m.parts = tools_.parts.parts();
   m.measured_mesh = tools_.mesh_modes.measured();
   m.measuring_mesh = tools_.mesh_modes.measuring();
@@ -285,8 +293,11 @@ Status Application::frame(std::span<const InputEvent> input, double dt, const Pi
   if (auto opened = second_.take_opened()) show_second(*std::move(opened));
   world_.recorder().look_through(instruments_.microscope.setup(ui_.microscope));
   world_.advance(dt);
+  canvas_.set_trail(trail());
+  second_.set_trail(trail());
   look_at_view();
   look_at_marks();
+  look_at_jump();
 
   keep_hints();
   look_at_description();

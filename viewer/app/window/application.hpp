@@ -192,11 +192,13 @@ class Application {
   void rename_body(const std::string& name, const std::string& to);
   std::string described_text();
   void look_at_description();
+  std::optional<DescriptionController::Changed> described_with(const EditDescription& edit);
   void edit_description(const EditDescription& edit);
   bool describe_live(const std::string& before, const std::string& after, const ScenePath& path,
                      const std::string& what);
   bool describe_body_live(const std::string& before, const std::string& after,
                           const ScenePath& path, const std::string& what);
+  bool stands_at_start() const;
   void finish_description(const Status& opened);
   void edit_joint(const EditJoint& edit);
   void take_mesh_modes();
@@ -237,6 +239,7 @@ class Application {
   double aspect() const { return layout_.area.aspect(); }
   bool stands_beside() const;
   void next_comparison_view();
+  double trail() const { return ui_.trail.value_or(scene_.trail); }
   void name_pictures(RenderScene& a, RenderScene& b) const;
   void look_from(const ViewArea& area);
   Status draw_pictures(UiDrawList& panels, const ViewArea& area, int width, int height);
@@ -256,6 +259,8 @@ class Application {
   void change_marks(const std::function<void(SceneMarks&)>& change);
   void follow_flight();
   void go_to_moment(uint64_t tick);
+  void jump_to_event();
+  void look_at_jump();
   void toggle_loop();
   void leave_loop();
   bool recording_forbids(const std::string& what);

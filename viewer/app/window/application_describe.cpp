@@ -4,6 +4,7 @@
 #include "engine/scene/outline/outline_edits.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/saving/dependents.hpp"
+#include "engine/scene/saving/json_text_edit.hpp"
 #include "engine/scene/visitors/object_writer.hpp"
 #include "engine/world/world.hpp"
 #include "viewer/app/window/application.hpp"
@@ -41,7 +42,17 @@ std::optional<BodyDef> described_body(const SceneDescription& scene, const std::
 /// Whether a body begins at the same place with the same motion.
 bool begin_alike(const BodyDef& a, const BodyDef& b) {
   return a.pose.x == b.pose.x && a.pose.q.coeffs() == b.pose.q.coeffs() &&
-         a.velocity == b.velocity && a.angular_velocity == b.angular_velocity;
+         a.velocity == b.velocity && a.angular_velocity == b.angular_velocity &&
+         a.starts_asleep == b.starts_asleep;
+}
+
+/// What a text says of a key of a body, where a definition has that in another form.
+std::vector<WrittenKey> written_key(const std::string& text, const std::string& body,
+                                    const std::string& key) {
+  if (key != "course" && key != "drawn") return {};
+  const JsonTextEdit file(text);
+  const auto said = file.value(ScenePath{} / "bodies" / body / key);
+  return {{key, said ? std::optional(std::string(*said)) : std::nullopt}};
 }
 
 /// Whether nothing in the scene takes its own place from that of this body, as anchors of joints
@@ -59,10 +70,17 @@ void carry_over(BodyDef& def, const BodyDef& before, const BodyDef& after, std::
   };
   carry(&BodyDef::type, &BodyDef::velocity, &BodyDef::angular_velocity, &BodyDef::mass,
         &BodyDef::inertia, &BodyDef::products, &BodyDef::centre, &BodyDef::group,
-        &BodyDef::gravity_scale, &BodyDef::fluid_friction, &BodyDef::can_sleep, &BodyDef::precise,
-        &BodyDef::hull_mass);
+        &BodyDef::gravity_scale, &BodyDef::fluid_friction, &BodyDef::can_sleep,
+        &BodyDef::starts_asleep, &BodyDef::precise, &BodyDef::hull_mass);
   if (!(before.pose.x == after.pose.x)) def.pose.x = after.pose.x;
   if (!(before.pose.q.coeffs() == after.pose.q.coeffs())) def.pose.q = after.pose.q;
+  if (key == "course" || (after.course && !begin_alike(before, after))) {
+    def.course = after.course;  // which begins at the pose of the description
+    def.pose = after.pose;
+    def.velocity = after.velocity;
+    def.angular_velocity = after.angular_velocity;
+  }
+  if (key == "drawn") def.drawn = after.drawn;
   if (key == "shape" || key == "shapes" || key == "material" || key == "density")
     def.shapes = after.shapes;
   if (key == "colour" || key == "look") def.look = after.look;
@@ -106,8 +124,9 @@ void keep_up_choices(std::vector<std::string>& chosen, const EditDescription& ed
 
 }  // namespace
 
+/// With all that was changed since the scene was opened, saved or not.
 std::string Application::described_text() {
-  return undo_steps_.unsaved().any() ? undo_steps_.unsaved().text() : scene_.file.text;
+  return undo_steps_.unsaved().text();
 }
 
 /// Called once a picture.
@@ -116,23 +135,35 @@ void Application::look_at_description() {
     description_.look(described_text(), ui_.described, world_.frame());
 }
 
-void Application::edit_description(const EditDescription& edit) {
-  if (recording_forbids("changing the scene")) return;
-  OpenRequest after = request_of_now();
+/// The scene's text with a change of its description, if that is to be taken: a change that makes
+/// no scene becomes a part of the draft.
+std::optional<DescriptionController::Changed> Application::described_with(
+    const EditDescription& edit) {
   const std::string now = described_text();
   auto done = description_.with(now, scene_.file.path, edit);
-  if (!done) return ui_.toast(ToastKind::warning, "This is not possible", {done.error().message});
-  const bool alone = !description_.has_draft();
-  if (done->text == now && alone) return;
-  ui_.described = done->place;
-  const size_t undo_steps = undo_steps_.edits().undo_steps().size();
-  if (!done->faults.empty())
-    return description_.keep(edit, std::move(done->faults), false, undo_steps);
-  const std::string what = undo_step_of(edit);
-  if (alone && describe_live(now, done->text, edit.path, what)) {
-    // The panel shows the new value from now on, not when unsaved work is next looked at.
-    return undo_steps_.finish(session(), options_.own_thread);
+  if (!done) {
+    ui_.toast(ToastKind::warning, "This is not possible", {done.error().message});
+    return std::nullopt;
   }
+  if (done->text == now && !description_.has_draft()) return std::nullopt;
+  ui_.described = done->place;
+  if (done->faults.empty()) return *std::move(done);
+  description_.keep(edit, std::move(done->faults), false, undo_steps_.edits().undo_steps().size());
+  return std::nullopt;
+}
+
+void Application::edit_description(const EditDescription& edit) {
+  if (recording_forbids("changing the scene")) return;
+  const std::string now = described_text();
+  auto done = described_with(edit);
+  if (!done) return;
+  const std::string what = undo_step_of(edit);
+  // The panel shows the new value from now on, not when the session has answered: it may be in a
+  // slow tick, and pictures do not wait for it.
+  if (!description_.has_draft() && describe_live(now, done->text, edit.path, what))
+    return undo_steps_.unsaved().expect(std::move(done->text));
+  OpenRequest after = request_of_now();
+  if (described_text() != now && !(done = described_with(edit))) return;
   for (const EditDescription& earlier : description_.draft())
     keep_up_choices(after.overrides, earlier);
   keep_up_choices(after.overrides, edit);
@@ -143,7 +174,7 @@ void Application::edit_description(const EditDescription& edit) {
     renaming_ = {edit.path[1].key, edit.value};
   described_along_.clear();
   for (const TakenAlong& one : done->along) described_along_.push_back(one.words());
-  description_.keep(edit, {}, true, undo_steps);
+  description_.keep(edit, {}, true, undo_steps_.edits().undo_steps().size());
   describing_ = true;
   choose(std::move(after), what, world_.frame().tick);
 }
@@ -179,30 +210,37 @@ bool Application::describe_live(const std::string& before, const std::string& af
   return true;
 }
 
-/// The same for a value of one body. Where and how it begins can only be changed so before the
-/// first tick; later the run is another one.
+/// The same for a value of one body. Where and how it begins, and its course, can only be changed
+/// so before the first tick; later the run is another one.
 bool Application::describe_body_live(const std::string& before, const std::string& after,
                                      const ScenePath& path, const std::string& what) {
-  if (path.size() < 3 || path[2].key == "drawn") return false;
+  if (path.size() < 3) return false;
   const SceneRead old = read_scene(before, scene_.file.path.string(), {scene_.request.overrides});
   const SceneRead now = read_scene(after, scene_.file.path.string(), {scene_.request.overrides});
   if (!old.ok() || !now.ok()) return false;
-  const std::string& name = path[1].key;
+  const std::string &name = path[1].key, &key = path[2].key;
   const auto was = described_body(old.scene, name), is = described_body(now.scene, name);
-  if (!was || !is || was->course || is->course || was->starts_asleep != is->starts_asleep)
+  if (!was || !is) return false;
+  const bool at_start = !begin_alike(*was, *is) || key == "course";
+  if (at_start && !(stands_at_start() && begins_alone(old.scene, before, name))) return false;
+  const std::vector<WrittenKey> written = written_key(after, name, key);
+  if (!says_same(before, scene_.file.path, ChangedBody{name, *was, *is, written}, after))
     return false;
-  const bool at_start = world_.frame().tick == 0 && session().paused();
-  if (!begin_alike(*was, *is) && !(at_start && begins_alone(old.scene, before, name))) return false;
-  if (!says_same(before, scene_.file.path, ChangedBody{name, *was, *is}, after)) return false;
   const Frame& frame = world_.frame();
   for (size_t slot = 0; slot < frame.body_slots(); ++slot) {
     if (frame.body(slot).id.is_null() || frame.info(slot).name != name) continue;
-    edit_body({frame.body(slot).id, what, [was = *was, is = *is, key = path[2].key](BodyDef& def) {
-                 carry_over(def, was, is, key);
-               }});
+    edit_body({frame.body(slot).id, what,
+               [was = *was, is = *is, key](BodyDef& def) { carry_over(def, was, is, key); },
+               written, at_start});
     return true;
   }
   return false;
+}
+
+/// Whether the world waits before its first tick, whatever moment the picture still shows.
+bool Application::stands_at_start() const {
+  const SessionCounters now = world_.session().counters();
+  return now.paused && now.tick == 0 && now.way_to == 0 && now.under_way_seconds == 0;
 }
 
 /// The scene with what was changed in its description is there, or cannot be.

@@ -218,14 +218,20 @@ void Application::edit_body(const EditBody& edit) {
   }
   const UndoStepEdits edits = begin_edit(edit.what, true);
   tools_.selected_def.expect(edit);
+  tools_.pinned_defs.expect(edit);
   session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const auto before = world.body_def(edit.id);
     if (!before) return;
+    if (edit.at_start && world.tick() != 0)
+      return refusal.say({ErrorCode::invalid_argument,
+                          "the run has begun meanwhile: change it once more, and it begins anew",
+                          {},
+                          {}});
     BodyDef after = *before;
     edit.change(after);
     if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
     if (edits->empty())
-      edits->push_back(ChangedBody{before->name, *before, after});
+      edits->push_back(ChangedBody{before->name, *before, after, edit.written});
     else if (auto* change = std::get_if<ChangedBody>(&edits->front()))
       edit.change(change->after);
   });
@@ -254,6 +260,7 @@ void Application::take_mesh_modes() {
 void Application::edit_joint(const EditJoint& edit) {
   const UndoStepEdits edits = begin_edit(edit.what, true);
   tools_.selected_def.expect(edit);
+  tools_.pinned_defs.expect(edit);
   session().post([edit, edits, refusal = tools_.refusal](World& world) {
     const JointDef* now = world.joint(edit.id);
     if (!now) return;

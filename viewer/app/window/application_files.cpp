@@ -137,7 +137,7 @@ void Application::finish_opening(SceneOpening::Opened done) {
                           opened->world_hash != 0;
   const auto moment = same_world ? session().keep() : nullptr;
   if (!same) description_.forget();
-  description_.count_undo_steps_anew();
+  description_.begin_anew();
   renaming_.reset();
   const SceneCamera camera = camera_;
   // A new scene has nothing to simulate: it stands still from its first tick on.

@@ -40,6 +40,22 @@ std::string mark_undo_step(const SceneMarks& before, const SceneMarks& now,
                                    [](const CameraKey& k) { return k.time; });
 }
 
+/// How far ahead the next event is looked for [s].
+constexpr double most_searched = 20;
+
+/// Greatest number of events of one tick that are named.
+constexpr size_t most_said_events = 3;
+
+/// "impacts of at least 0.5 N s with 'ball'".
+std::string filter_words(const EventFilter& filter) {
+  std::string out = filter.kind ? std::string(event_kind_name(*filter.kind)) : "everything";
+  const bool impacts = !filter.kind || *filter.kind == WorldEventKind::impact;
+  if (impacts && filter.least_impulse > 0)
+    out += fmt::format(" of at least {:.3g} N s", filter.least_impulse);
+  if (!filter.body.empty()) out += fmt::format(" with \"{}\" in its name", filter.body);
+  return out;
+}
+
 }  // namespace
 
 /// The key under which the marks of the scene shown are kept.
@@ -114,6 +130,43 @@ void Application::leave_loop() {
   edit_marks([](TimeMarks& marks) { marks.looping = false; });
   ui_.toast(ToastKind::info, "The loop is switched off",
             {"Going back would undo what was changed just now."});
+}
+
+void Application::jump_to_event() {
+  instruments_.jump =
+      session().step_until([watch = instruments_.events, filter = ui_.event_filter](
+                               const Frame&, const Frame&) { return watch->just_happened(filter); },
+                           most_searched);
+}
+
+/// Says which event was found, or that there was none.
+void Application::look_at_jump() {
+  auto& jump = instruments_.jump;
+  if (!jump.valid() || jump.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  const Session::Search end = jump.get();
+  if (end == Session::Search::left) return;
+  std::erase_if(ui_.toasts, [&](const Toast& t) { return t.title == instruments_.jump_words; });
+  std::vector<std::string> lines;
+  if (end == Session::Search::nothing) {
+    instruments_.jump_words = fmt::format("Nothing of this has happened in {} s", most_searched);
+    lines.push_back(fmt::format("{} lists what has, and chooses what is looked for: now {}.",
+                                shortcut_of(Action::toggle_events),
+                                filter_words(ui_.event_filter)));
+    return ui_.toast(ToastKind::info, instruments_.jump_words, std::move(lines));
+  }
+  const auto events = instruments_.events->events();
+  std::vector<const WorldEvent*> found;
+  for (const WorldEvent& e : *events)
+    if (e.tick == events->back().tick && ui_.event_filter.takes(e)) found.push_back(&e);
+  if (found.empty()) return;
+  instruments_.jump_words = fmt::format("{:.2f} s, {}: {}", found[0]->time,
+                                        event_kind_name(found[0]->kind), event_text(*found[0]));
+  for (size_t i = 1; i < std::min(found.size(), most_said_events); ++i)
+    lines.push_back(event_text(*found[i]));
+  if (found.size() > most_said_events)
+    lines.push_back(fmt::format("and {} more: {} lists them", found.size() - most_said_events,
+                                shortcut_of(Action::toggle_events)));
+  ui_.toast(ToastKind::info, instruments_.jump_words, std::move(lines));
 }
 
 /// Ticks that were not seen yet are computed; those that are too long ago are not kept any more.

@@ -66,6 +66,13 @@ void Canvas::open(const std::function<void(RenderScene&)>& look, double trail_se
   trails_.start(trail_seconds);
 }
 
+void Canvas::set_trail(double seconds) {
+  if (seconds == trail_seconds_) return;
+  trail_seconds_ = seconds;
+  trails_.start(seconds);
+  shown_ = {};  // the picture is another one, though nothing moves
+}
+
 void Canvas::see(const Frame& frame, bool way_is_known) {
   if (!way_is_known) trails_.start(trail_seconds_);
   trails_.see(frame);

@@ -49,6 +49,8 @@ class Canvas {
 
   /// For another scene: sets its light and ground, and the length of its trails [s].
   void open(const std::function<void(RenderScene&)>& look, double trail_seconds);
+  /// Sets another length of the trails [s], which begin anew; 0: there are none.
+  void set_trail(double seconds);
   /// Takes the next frame; `way_is_known`: it follows the frames before without a gap.
   void see(const Frame& frame, bool way_is_known);
   /// Fills the picture with a moment of the world.

@@ -34,6 +34,12 @@ class ComparisonController {
   void forget();
   /// To be called when both worlds were set to a later moment, without the frames between.
   void restart_trail() { trails_.start(trail_); }
+  /// Sets another length of the trails [s].
+  void set_trail(double seconds) {
+    if (seconds == trail_) return;
+    trail_ = seconds;
+    restart_trail();
+  }
   /// Reads B's present state. `shown`: frame of A; `of_a`: A's choices.
   void update(const Frame& shown, const WorldChoice& of_a);
   /// Null: there is no world B, and none is being opened.

@@ -6,6 +6,7 @@
 #include "viewer/app/editing/mesh_modes.hpp"
 #include "viewer/app/editing/mesh_palette.hpp"
 #include "viewer/app/editing/parts_controller.hpp"
+#include "viewer/app/session/pinned_defs.hpp"
 #include "viewer/app/session/refusal.hpp"
 #include "viewer/app/session/selected_def.hpp"
 #include "viewer/app/window/pointer.hpp"
@@ -25,6 +26,7 @@ struct EditingTools {
   MeshPalette mesh_palette;
   MeshModes mesh_modes;
   SelectedDef selected_def;
+  PinnedDefs pinned_defs;
   PartsController parts;
   std::optional<PointerBox> box;  ///< selection box being dragged
   Refusal refusal;                ///< why the world rejected a request
@@ -36,6 +38,7 @@ struct EditingTools {
     arranger.end();
     mesh_modes.forget();
     selected_def.forget();
+    pinned_defs.forget();
     parts.open(std::move(described), std::move(live));
     box.reset();
   }

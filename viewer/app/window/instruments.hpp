@@ -8,8 +8,10 @@
 #include "viewer/ui/history.hpp"
 #include "viewer/ui/measures.hpp"
 
+#include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace tumble {
@@ -21,6 +23,8 @@ struct Instruments {
   PastCurves past;  ///< computes the past of plotted curves
   Ruler ruler;
   std::shared_ptr<EventWatch> events;  ///< events of the world shown
+  std::future<Session::Search> jump;   ///< the search for the next event
+  std::string jump_words;              ///< what was said of the last one
   ContactProbe probe;
   MicroscopeController microscope;
   MicroscopeProbe microscope_probe;
@@ -32,6 +36,7 @@ struct Instruments {
     past.forget();
     ruler.forget();
     events = std::make_shared<EventWatch>();
+    jump = {};
     probe.clear();
     microscope.open(std::move(of_scene));
     microscope_probe.clear();

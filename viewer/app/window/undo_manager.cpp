@@ -48,13 +48,13 @@ std::optional<EditHistory::Back> UndoManager::went(std::optional<EditHistory::Ba
 
 std::optional<EditHistory::Back> UndoManager::take_back(Session& session,
                                                         std::vector<BodyId> selected) {
-  unsaved_.note();
+  unsaved_.look_again();
   return went(edits_.undo(session, std::move(selected)));
 }
 
 std::optional<EditHistory::Back> UndoManager::do_again(Session& session,
                                                        std::vector<BodyId> selected) {
-  unsaved_.note();
+  unsaved_.look_again();
   return went(edits_.redo(session, std::move(selected)));
 }
 

@@ -1,6 +1,7 @@
 #include "engine/scene/description/body.hpp"
 #include "engine/scene/description/shape.hpp"
 #include "viewer/ui/arrange_form.hpp"
+#include "viewer/ui/mesh_form.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/style.hpp"
 
@@ -77,7 +78,7 @@ void draw_meshes(PanelContext& context) {
   if (build.mesh_file.empty()) return;
   ParameterWidgets widgets(context, "build");
   MeshMode mode = build.mesh_mode;
-  widgets.field(mode, {.name = "mode", .doc = "what the mesh collides as"});
+  (void)choose_mesh_mode(widgets, mode, "what takes the place of the mesh in contacts");
   const bool lit = state.building && std::holds_alternative<NewMesh>(build.what);
   if (mode != build.mesh_mode) {
     build.mesh_mode = mode;

@@ -69,6 +69,28 @@ void draw_vector_length(PanelContext& context) {
   tooltip_with_key(context, "length of arrows of velocity, momentum and total force", {});
 }
 
+/// A switch for the paths of moving bodies, and their length.
+void draw_trails(PanelContext& context) {
+  constexpr double usual = 2, least = 0.1, most = 60;  // [s]
+  double seconds = context.model.trail;
+  bool on = seconds > 0;
+  if (toggle(context, "drawing.trails", "Trails", on)) context.state.trail = on ? usual : 0;
+  tooltip_with_key(context, "the way that each moving body goes from now on", {});
+  if (!on || seconds == 0) return;
+  // Trails of another length begin anew: not before the slider is let go.
+  auto& pulled = context.state.pulled_parameters;
+  const std::string name = "drawing.trail_length";
+  if (pulled.contains(name)) seconds = pulled[name];
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::SliderScalar("##trail", ImGuiDataType_Double, &seconds, &least, &most, "the last %.2g s",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  context.host.mark(name);
+  if (ImGui::IsItemActive()) pulled[name] = seconds;
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return;
+  pulled.erase(name);
+  context.state.trail = seconds;
+}
+
 /// Theme and size of the panels themselves.
 void draw_appearance(PanelContext& context) {
   UiState& state = context.state;
@@ -113,6 +135,7 @@ void draw_drawing_panel(PanelContext& context) {
         (shown.velocities || shown.momenta || shown.total_forces))
       draw_vector_length(context);
   }
+  draw_trails(context);
   ImGui::PopStyleVar();
   section(context, "Panels");
   draw_appearance(context);

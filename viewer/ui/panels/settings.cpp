@@ -1,9 +1,13 @@
+#include "viewer/interact/picking.hpp"
+#include "viewer/ui/body_form.hpp"
+#include "viewer/ui/joint_form.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/settings_form.hpp"
 #include "viewer/ui/style.hpp"
 
 #include <string>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace tumble {
@@ -27,12 +31,53 @@ void draw_parameters(PanelContext& context) {
   ImGui::Dummy(ImVec2(0, 2));
 }
 
+/// A pinned value of something that is not there now: deleted, or not yet made in this run.
+void draw_missing(PanelContext& context, const Pin& pin, const std::string& mark) {
+  small_text(context,
+             fmt::format("{}: {} is not there", pin.joint.empty() ? pin.body : pin.joint,
+                         label_of(pin.value)),
+             palette::faint);
+  ImGui::SameLine();
+  if (icon_button(context, mark + ".off", Icon::close, "take it off", {}, 16))
+    context.state.pins.flip(pin);
+}
+
+/// Draws the values that were pinned in the inspector.
+void draw_pins(PanelContext& context) {
+  const std::vector<Pin> pins = context.state.pins.all;  // one of them may be taken off here
+  if (pins.empty()) return;
+  small_text(context, "pinned", palette::accent);
+  for (const Pin& pin : pins) {
+    const std::string owner = pin.joint.empty() ? pin.body : pin.joint;
+    const std::string mark = "pinned." + owner;
+    ImGui::PushID(fmt::format("{} {}", owner, pin.value).c_str());
+    const auto body = context.model.pinned.find(pin.body);
+    const auto slot = body == context.model.pinned.end()
+                          ? std::nullopt
+                          : find_slot(*context.model.frame, body->second.id);
+    const SelectedJoint* joint = nullptr;
+    if (slot && body->second.joints)
+      for (const SelectedJoint& one : *body->second.joints)
+        if (one.def.name == pin.joint && !pin.joint.empty()) joint = &one;
+    if (!slot || (!pin.joint.empty() && body->second.joints && !joint))
+      draw_missing(context, pin, mark);
+    else if (joint)
+      draw_pinned_joint_value(context, pin, mark, *joint);
+    else if (pin.joint.empty() && body->second.def)
+      draw_pinned_body_value(context, pin, mark, context.model.frame->body(*slot),
+                             *body->second.def);
+    ImGui::PopID();
+  }
+  ImGui::Dummy(ImVec2(0, 2));
+}
+
 }  // namespace
 
 void draw_settings_panel(PanelContext& context) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 4));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
   draw_parameters(context);
+  draw_pins(context);
   WorldSettings settings = context.model.settings;
   if (draw_settings_form(context, "settings", settings)) context.ask(ChangeSettings{settings});
 

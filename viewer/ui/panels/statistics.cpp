@@ -78,6 +78,14 @@ void draw_statistics_panel(PanelContext& context) {
   if (stats.time_stepped > 0)
     value_row("groups time-stepped", fmt::format("{}", stats.time_stepped), palette::yellow);
   value_row("momentum", quantity_text(stats.momentum.norm(), "N s"));
+  constexpr double mega = 1e6;
+  value_row("past to go back to", fmt::format("{:.0f} of {:.0f} MB", double(m.past_bytes) / mega,
+                                              double(m.past_budget) / mega));
+  context.host.mark("statistics.past");
+  tooltip_with_key(context,
+                   "moments kept for scrubbing; the older they are the fewer remain, and what is "
+                   "between them is computed again",
+                   {});
   section(context, fmt::format("Step  {}", duration_text(m.history->smoothed_step())).c_str());
   draw_step_plot(context);
   ImGui::Dummy(ImVec2(0, 2));

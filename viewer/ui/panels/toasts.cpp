@@ -91,6 +91,9 @@ constexpr ImGuiWindowFlags notice_flags =
 /// Text for a slow tick, or for a seek over many ticks, which is not a hang.
 std::string words_of_slow_tick(const UiModel& m) {
   const double seconds = std::floor(m.under_way_seconds);
+  if (m.searching)
+    return fmt::format("Looking for the next event: {:.0f} s, now at tick {}", seconds,
+                       m.next_tick);
   if (m.way_to >= m.next_tick)
     return fmt::format("Computing up to tick {}: {:.0f} s, {} ticks to go", m.way_to, seconds,
                        m.way_to - m.next_tick + 1);
