@@ -174,8 +174,11 @@ struct Frame {
 
   uint64_t tick = 0;
   TickRate rate;
-  double time = 0;  ///< [s]
-  Vec3 gravity = Vec3::Zero();
+  double time = 0;              ///< [s]
+  Vec3 gravity = Vec3::Zero();  ///< at this moment [m/s2]
+  /// Gravity by whose strength speeds and forces are called small or large [m/s2]: where gravity
+  /// follows a course, which may pass through zero, that of the Earth unless it is stronger now.
+  double usual_gravity = 0;
   std::string broad_phase;                               ///< name in all_broad_phases()
   std::vector<std::shared_ptr<const BodyChunk>> chunks;  ///< body slot i is chunks[i / 64][i % 64]
   std::shared_ptr<const std::vector<BodyInfo>> infos;    ///< by body slot

@@ -3,6 +3,7 @@
 #include "engine/math/rotation.hpp"
 #include "engine/world/particle_frames.hpp"
 #include "engine/world/state.hpp"
+#include "engine/world/tolerances.hpp"
 
 #include <algorithm>
 #include <array>
@@ -266,6 +267,8 @@ void publish_frame(WorldState& s) {
   frame->rate = s.settings.tick;
   frame->time = s.time();
   frame->gravity = s.settings.gravity.now();
+  frame->usual_gravity =
+      std::max(frame->gravity.norm(), s.settings.gravity.varies() ? tolerances::earth_gravity : 0);
   frame->broad_phase = s.settings.broad_phase;
   frame->infos = !s.frames.last || s.frames.infos_changed ? make_infos(s) : s.frames.last->infos;
   const bool joints_changed = s.frames.infos_changed;

@@ -10,6 +10,8 @@ inline constexpr double energy_growth = 1000;
 /// room, is not tested [m/s]. A world that begins at rest in the plane of the origin has no energy
 /// to compare with.
 inline constexpr double no_energy_speed = 100;
+/// Standard gravity, by which weights are judged where gravity itself follows a course [m/s2].
+inline constexpr double earth_gravity = 9.80665;
 /// Rounding error of an energy that is summed over many bodies, relative [-].
 inline constexpr double energy_digits = 1e-14;
 

@@ -68,6 +68,30 @@ TEST_CASE("bounces of a ball are impacts, of m (v + v'), a box that rests makes 
   }
 }
 
+TEST_CASE("what strikes is judged by the gravity that is usual, where it follows a course") {
+  // A ball of .1 m/s between two walls, while there is no gravity: a strike where there never is
+  // any, and none where gravity only happens to be zero, as on a course that swings.
+  const auto strikes = [](VaryingVec3 gravity) {
+    WorldSettings settings;
+    settings.gravity = std::move(gravity);
+    TestWorld w(settings);
+    BodyDef wall = TestWorld::box_def({0, 0, 0});
+    wall.type = BodyType::fixed;
+    w.add(wall);
+    BodyDef ball = named_ball("ball", {1.05, 0, 0}, 1);
+    ball.v = Vec3(-0.1, 0, 0);
+    w.add(ball);
+    Watched watched(w);
+    watched.run(w, 60);
+    CHECK(w.world->frame()->gravity == Vec3::Zero());
+    return watched.of(WorldEventKind::impact).size();
+  };
+  auto none = TimeCourse::expression("0*t");
+  REQUIRE(none.ok());
+  CHECK(strikes(Vec3::Zero()) == 1);
+  CHECK(strikes({0, *std::move(none), 0}) == 0);
+}
+
 TEST_CASE("sleep, waking, births and deaths are told, of many at once together") {
   TestWorld w;
   w.ground();

@@ -168,7 +168,7 @@ void add_thin_arrow(RenderScene& out, const Vec3& from, Vec3 along, double size,
 VectorScales vector_scales(const Frame& frame, const Overlays& overlays) {
   const double longer = overlays.vector_length > 0 ? overlays.vector_length : 1;
   const double mass = typical_mass(frame), size = std::max(typical_size(frame), 1e-6);
-  const double gravity = frame.gravity.norm() > 0 ? frame.gravity.norm() : usual_gravity;
+  const double gravity = frame.usual_gravity > 0 ? frame.usual_gravity : usual_gravity;
   VectorScales out;
   out.momentum = round_up(out.velocity * mass) / longer;
   if (!frame.particles.empty())

@@ -107,7 +107,7 @@ double EventGatherer::normal_speed(const PairPush& pair, const BodyFrame* a,
 void EventGatherer::find_impacts(const Frame& frame, const std::vector<PairPush>& now,
                                  std::vector<WorldEvent>& out) const {
   const double slow = std::max(tolerances::least_strike,
-                               tolerances::strike_ticks * frame.gravity.norm() * frame.rate.tick());
+                               tolerances::strike_ticks * frame.usual_gravity * frame.rate.tick());
   std::vector<WorldEvent> found;
   for (const PairPush& pair : now) {
     const auto old =

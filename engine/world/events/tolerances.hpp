@@ -3,8 +3,8 @@
 
 namespace tumble::tolerances {
 
-/// Relative normal speed below which contact is not an impact, in ticks of free fall [-]: bodies
-/// that rest or rattle reach about one.
+/// Relative normal speed below which contact is not an impact, in ticks of free fall [-]
+/// (Frame::usual_gravity): bodies that rest or rattle reach about one.
 inline constexpr double strike_ticks = 2;
 /// The same where there is no gravity [m/s].
 inline constexpr double least_strike = 0.01;

@@ -140,6 +140,10 @@ TEST_CASE("total forces are changes of momentum, momenta masses times velocities
   const double newtons = vector_scales(now, options.overlays).force;
   CHECK(newtons == 20);
   CHECK(force_scale_words(now, options.overlays) == "1 m is 20 N");
+  // Gravity that passes zero on its course changes no scale.
+  Frame floating = now;
+  floating.gravity = Vec3(0, -1e-9, 0);
+  CHECK(vector_scales(floating, options.overlays).force == newtons);
   const RenderScene forces = extracted(before, now, 1, options);
   REQUIRE(forces.lines.size() == 2);
   CHECK(double((forces.lines[1].b - forces.lines[1].a).x()) == doctest::Approx(30 / newtons));

@@ -50,6 +50,7 @@ struct FrameMaker {
   Frame make() {
     Frame f = frame;
     f.gravity = Vec3(0, -9.81, 0);
+    f.usual_gravity = 9.81;
     f.infos = std::make_shared<std::vector<BodyInfo>>(infos);
     f.contacts = std::make_shared<std::vector<ContactFrame>>(contacts);
     f.chunks.clear();
