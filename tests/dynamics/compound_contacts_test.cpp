@@ -112,7 +112,7 @@ class KnownPair {
                                         pair_side(bodies_, {1, 0}, tick_)};
     const PairContacts finder{sides, bodies_, tick_, &counted};
     const PairHistory history{contacts, known_.seen.empty() ? nullptr : known_.seen.data(),
-                              known_.near.empty() ? nullptr : known_.near.data()};
+                              known_.pieces};
     Sights sights;
     if (CompoundPair(finder, sides[0], sides[1], history).look(sights)) {
       for (Contact& c : contacts) carry_along(c, sides[0], sides[1]);
@@ -134,21 +134,13 @@ class KnownPair {
                     contact_margin(bodies_[1], tick_.margin));
   }
 
-  /// What is known of the shapes that are near each other, or null.
-  std::shared_ptr<const KnownShapes> near() const {
-    return known_.near.empty() ? nullptr : known_.near.front().near;
-  }
-
   std::vector<Contact> contacts;
-  static inline int asked = 0;      ///< how often the narrow phase was
-  static inline int asked_far = 0;  ///< the same of shapes whose bounding spheres are out of reach
+  static inline int asked = 0;  ///< how often the narrow phase was
 
  private:
   static void counted(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                       const ContactQuery& query, std::vector<Manifold>& out) {
     ++asked;
-    const double between = (pose_b.x - pose_a.x).norm();
-    asked_far += between > a.bounding_radius() + b.bounding_radius() + query.margin;
     collide(a, pose_a, b, pose_b, query, out);
   }
   std::span<const RigidBody> bodies_;
@@ -217,7 +209,7 @@ TEST_CASE("what a hollow body holds is near it only where it is near a wall") {
 TEST_CASE("what is known of two bodies has the gaps of all pairs of shapes, asked seldom") {
   Random r(63);
   int asked_one_by_one = 0, touching = 0, apart = 0;
-  KnownPair::asked = KnownPair::asked_far = 0;
+  KnownPair::asked = 0;
   for (int draw = 0; draw < scaled_count(60, 4); ++draw) {
     std::array<RigidBody, 2> bodies{random_compound(r, 2 + int(r.uniform(0, 12))),
                                     random_compound(r, 1 + int(r.uniform(0, 12)))};
@@ -251,36 +243,6 @@ TEST_CASE("what is known of two bodies has the gaps of all pairs of shapes, aske
   CHECK(touching > apart / 10);
   CHECK(apart > touching / 10);
   CHECK(KnownPair::asked < asked_one_by_one / 20);
-  CHECK(KnownPair::asked_far < KnownPair::asked / 100);
-}
-
-TEST_CASE("what is known of bodies that hold still is one list, which ticks share") {
-  Random r(65);
-  int touching = 0;
-  for (int draw = 0; draw < 100; ++draw) {
-    std::array<RigidBody, 2> bodies{*make_body(stool(even_angles(3 + draw % 5))),
-                                    *make_body(stool(even_angles(4)))};
-    bodies[1].pose = {vector_in(r, 1.5), rotation_in(r)};
-    KnownPair known(bodies);
-    known.update();
-    const std::shared_ptr<const KnownShapes> list = known.near();
-    if (!list) continue;
-    KnownPair::asked = 0;
-    for (int i = 0; i < 5; ++i) {
-      const Pose common{vector_in(r, 1), rotation_in(r)};
-      for (RigidBody& b : bodies) b.pose = common * b.pose;
-      known.update();
-      CHECK(known.near() == list);
-    }
-    CHECK(KnownPair::asked == 0);
-    if (list->touching == 0) continue;
-    ++touching;
-    bodies[1].pose.x += Vec3(0.01, 0, 0);
-    known.update();
-    CHECK(KnownPair::asked > 0);
-    CHECK(known.near() != list);
-  }
-  CHECK(touching >= 5);
 }
 
 TEST_CASE("what is known of bodies of several shapes survives saving, to the bit") {

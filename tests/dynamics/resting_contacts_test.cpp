@@ -150,7 +150,7 @@ struct Both {
     resting.for_piles([&](const ContactKnowledge& pile) {
       CHECK(std::ranges::is_sorted(pile.contacts, {}, &Contact::key));
       CHECK(std::ranges::is_sorted(pile.seen, {}, &CachedPair::pair));
-      CHECK(std::ranges::is_sorted(pile.near, {}, &CachedNear::pair));
+      CHECK(std::is_sorted(pile.pieces.begin(), pile.pieces.end()));
       all.append(pile);
     });
     CHECK(keys(all) == keys(model.known));

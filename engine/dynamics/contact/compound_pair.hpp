@@ -11,9 +11,9 @@ namespace tumble {
 /// list of its shapes that are near each other, which stays valid until the bodies have moved
 /// relative to each other by its spare range (a Verlet list); and for each pair of shapes in the
 /// list, whether the two touched or how far apart they were. The narrow phase runs only on those
-/// that may have come near since and whose bounding spheres are near. Contacts, which may belong to
-/// several pairs of shapes (shared_manifolds.hpp), are carried along while their own points hardly
-/// move relative to each other.
+/// that may have come near since. Contacts, which may belong to several pairs of shapes
+/// (shared_manifolds.hpp), are carried along while their own points hardly move relative to each
+/// other.
 class CompoundPair {
  public:
   CompoundPair(const PairContacts& finder, const PairSide& a, const PairSide& b,
@@ -40,21 +40,17 @@ class CompoundPair {
   Motion& motion_since(const Pose& then);
   const MotionSince& points_since(const Pose& then);
   double moved(const CachedShapes& piece);
-  double spheres_apart(const CachedShapes& piece) const;
-  double margin_left(const CachedShapes& piece);
   bool still_seen(const CachedShapes& piece);
   bool contacts_hold();
   bool find_whether_they_hold();
-  bool points_hold();
-  void renew_list(Sights& sights, KnownShapes& near);
-  bool look_at_those_apart(KnownShapes& near);
+  void renew_list(Sights& sights);
+  bool look_at_those_apart(std::span<CachedShapes> pieces);
   void look_at(CachedShapes& piece);
 
   const PairContacts& finder_;
   const PairSide &a_, &b_;
   const PairHistory& history_;
-  const KnownShapes& before_;  ///< of the last tick; empty if nothing is known
-  Pose now_;                   ///< relative_pose
+  Pose now_;  ///< relative_pose
   /// PairContacts::reach of the bodies: how far apart what touches within the tick may be [m]
   double reach_;
   /// How much farther the narrow phase searches, so that its result survives some motion [m]

@@ -1,15 +1,13 @@
 #pragma once
 #include "engine/collision/few_points.hpp"
 #include "engine/collision/manifold.hpp"
-#include "engine/core/memory_use.hpp"
 #include "engine/dynamics/bodies/body.hpp"
 
 #include <cmath>
 #include <compare>
 #include <cstdint>
-#include <limits>
-#include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace tumble {
@@ -98,42 +96,25 @@ struct CachedPair {
   ContactKey pair;  ///< part is 0
   Pose relative;    ///< pose of the smaller side's frame (PairSide::shape_pose) in the larger one's
   /// All gaps up to this were found; where none was, the shapes are farther apart than this. For a
-  /// pair with KnownShapes: all pairs of its shapes that these do not list are farther apart than
+  /// pair with CachedShapes: all pairs of its shapes without a CachedShapes are farther apart than
   /// this [m].
   double margin = 0;
 };
 
 /// The same for two shapes that are near each other, where a body of the pair has several shapes.
 struct CachedShapes {
+  ContactKey pair;  ///< CachedPair::pair
   ShapesOfPair shapes;
+  Pose relative;  ///< pose of the sides of the pair, as in CachedPair
   /// All gaps up to this were found; where none was, the shapes are farther apart [m]
   double margin = 0;
   ClosestFeatures closest;  ///< Manifold::closest, if they touch
   bool touch = false;       ///< gaps were found
-};
 
-/// What is known of the shapes of two bodies that are near each other. It stays the same, and is
-/// shared between ticks, until the narrow phase must run on some of them again.
-struct KnownShapes {
-  std::vector<CachedShapes> shapes;  ///< ascending
-  /// Pose of the sides of the pair, as in CachedPair, when the margins of the shapes that do not
-  /// touch were true, and of those that do.
-  Pose relative_apart, relative_touching;
-  /// The least of these margins; infinite without any [m].
-  double margin_apart = std::numeric_limits<double>::infinity(), margin_touching = margin_apart;
-  uint32_t touching = 0;  ///< how many of the shapes touch
-
-  /// Sets the members that follow from `shapes`.
-  void sum_up();
+  friend bool operator<(const CachedShapes& s, const CachedShapes& t) {
+    return std::tie(s.pair, s.shapes) < std::tie(t.pair, t.shapes);
+  }
 };
-
-/// KnownShapes of a pair of bodies, if any of their shapes are near each other.
-struct CachedNear {
-  ContactKey pair;  ///< CachedPair::pair
-  std::shared_ptr<const KnownShapes> near;
-};
-/// Adds what the lists take, each of which is one object on the heap.
-void add_memory(std::span<const CachedNear> near, MemoryUse& use);
 
 /// Midway between the surfaces at point i, world axes [m].
 Vec3 contact_position(const Contact& contact, int i, std::span<const RigidBody> bodies);
@@ -156,15 +137,15 @@ CombinedMaterial combine(const Side& a, const Side& b) {
 /// Contacts of some pairs, and what is remembered of the last narrow phase on them; each list is
 /// sorted.
 struct ContactKnowledge {
-  std::vector<Contact> contacts;  ///< by key
-  std::vector<CachedPair> seen;   ///< by pair
-  std::vector<CachedNear> near;   ///< by pair; the pairs are in `seen`
+  std::vector<Contact> contacts;     ///< by key
+  std::vector<CachedPair> seen;      ///< by pair
+  std::vector<CachedShapes> pieces;  ///< by pair and shapes; their pairs are in `seen`
 
   bool empty() const { return contacts.empty() && seen.empty(); }
   void clear() {
     contacts.clear();
     seen.clear();
-    near.clear();
+    pieces.clear();
   }
   void append(const ContactKnowledge& other);
   void sort();

@@ -74,10 +74,10 @@ void ContactSet::save(ByteWriter& out) const {
   }
   ContactKnowledge known;
   known.seen = now_.seen;
-  known.near = now_.near;
+  known.pieces = now_.pieces;
   resting_.for_piles([&known](const ContactKnowledge& pile) {
     known.seen.insert(known.seen.end(), pile.seen.begin(), pile.seen.end());
-    known.near.insert(known.near.end(), pile.near.begin(), pile.near.end());
+    known.pieces.insert(known.pieces.end(), pile.pieces.begin(), pile.pieces.end());
   });
   known.sort();
   out.value(uint64_t(known.seen.size()));
@@ -86,19 +86,16 @@ void ContactSet::save(ByteWriter& out) const {
     write_pose(out, s.relative);
     out.value(s.margin);
   }
-  uint64_t shapes = 0;
-  for (const CachedNear& of_pair : known.near) shapes += of_pair.near->shapes.size();
-  out.value(shapes);
-  for (const CachedNear& of_pair : known.near)
-    for (const CachedShapes& s : of_pair.near->shapes) {
-      pair_of(out, of_pair.pair);
-      out.value(s.shapes.a);
-      out.value(s.shapes.b);
-      write_pose(out, s.touch ? of_pair.near->relative_touching : of_pair.near->relative_apart);
-      out.value(s.margin);
-      for (const PolyhedronFeature& f : s.closest) out.value(f.kind), out.value(f.index);
-      out.value(uint8_t(s.touch));
-    }
+  out.value(uint64_t(known.pieces.size()));
+  for (const CachedShapes& s : known.pieces) {
+    pair_of(out, s.pair);
+    out.value(s.shapes.a);
+    out.value(s.shapes.b);
+    write_pose(out, s.relative);
+    out.value(s.margin);
+    for (const PolyhedronFeature& f : s.closest) out.value(f.kind), out.value(f.index);
+    out.value(uint8_t(s.touch));
+  }
 }
 
 bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
@@ -141,32 +138,19 @@ bool ContactSet::load(ByteReader& in, uint32_t body_slots) {
     known(s.pair);
     now_.seen.push_back(s);
   }
-  const auto shapes = in.get<uint64_t>();
-  std::shared_ptr<KnownShapes> near;
-  const auto sum_up = [&near] {
-    if (near) near->sum_up();
-  };
-  for (uint64_t k = 0; k < shapes && in.ok(); ++k) {
-    CachedNear of_pair;
+  const auto pieces = in.get<uint64_t>();
+  for (uint64_t k = 0; k < pieces && in.ok(); ++k) {
     CachedShapes s;
-    Pose relative;
-    pair_of(in, of_pair.pair);
+    pair_of(in, s.pair);
     in.value(s.shapes.a);
     in.value(s.shapes.b);
-    read_pose(in, relative);
+    read_pose(in, s.relative);
     in.value(s.margin);
     for (PolyhedronFeature& f : s.closest) in.value(f.kind), in.value(f.index);
     s.touch = in.get<uint8_t>() != 0;
-    known(of_pair.pair);
-    if (now_.near.empty() || now_.near.back().pair != of_pair.pair) {
-      sum_up();
-      of_pair.near = near = std::make_shared<KnownShapes>();
-      now_.near.push_back(std::move(of_pair));
-    }
-    (s.touch ? near->relative_touching : near->relative_apart) = relative;
-    near->shapes.push_back(s);
+    known(s.pair);
+    now_.pieces.push_back(s);
   }
-  sum_up();
   if (!in.ok()) clear();
   return in.ok();
 }

@@ -48,28 +48,13 @@ bool pair_less(const CachedPair& a, const CachedPair& b) {
 void ContactKnowledge::append(const ContactKnowledge& other) {
   contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());
   seen.insert(seen.end(), other.seen.begin(), other.seen.end());
-  near.insert(near.end(), other.near.begin(), other.near.end());
+  pieces.insert(pieces.end(), other.pieces.begin(), other.pieces.end());
 }
 
 void ContactKnowledge::sort() {
   std::sort(contacts.begin(), contacts.end(), key_less);
   std::sort(seen.begin(), seen.end(), pair_less);
-  std::ranges::sort(near, {}, &CachedNear::pair);
-}
-
-void KnownShapes::sum_up() {
-  margin_apart = margin_touching = std::numeric_limits<double>::infinity();
-  touching = 0;
-  for (const CachedShapes& s : shapes) {
-    double& least = s.touch ? margin_touching : margin_apart;
-    least = std::min(least, s.margin);
-    touching += s.touch;
-  }
-}
-
-void add_memory(std::span<const CachedNear> near, MemoryUse& use) {
-  for (const CachedNear& of_pair : near)
-    if (of_pair.near) use.contacts += sizeof(KnownShapes) + heap_bytes(of_pair.near->shapes);
+  std::sort(pieces.begin(), pieces.end());
 }
 
 namespace {
@@ -83,8 +68,7 @@ void merge(const ContactKnowledge& a, const ContactKnowledge& b, ContactKnowledg
   out.clear();
   std::ranges::merge(a.contacts, b.contacts, std::back_inserter(out.contacts), key_less);
   std::ranges::merge(a.seen, b.seen, std::back_inserter(out.seen), pair_less);
-  std::ranges::merge(a.near, b.near, std::back_inserter(out.near), {}, &CachedNear::pair,
-                     &CachedNear::pair);
+  std::ranges::merge(a.pieces, b.pieces, std::back_inserter(out.pieces), std::less());
 }
 
 /// Pairs per task: few, so that expensive pairs are shared among threads; but more where there are
@@ -105,10 +89,10 @@ class HistoryCursor {
   HistoryCursor(const ContactKnowledge& known, const ContactKey& first)
       : contacts_(known.contacts),
         seen_(known.seen),
-        nears_(known.near),
+        pieces_(known.pieces),
         contact_(std::ranges::lower_bound(contacts_, first, {}, &Contact::key)),
         look_(std::ranges::lower_bound(seen_, first, {}, &CachedPair::pair)),
-        near_(std::ranges::lower_bound(nears_, first, {}, &CachedNear::pair)) {}
+        piece_(std::ranges::lower_bound(pieces_, first, {}, &CachedShapes::pair)) {}
 
   PairHistory at(const ContactKey& pair) {
     while (contact_ != contacts_.end() && contact_->key < pair) ++contact_;
@@ -118,19 +102,21 @@ class HistoryCursor {
     const bool known = look_ != seen_.end() && same_pair(look_->pair, pair);
     return {{begin, contact_}, known ? &*look_ : nullptr};
   }
-  /// What is known of the shapes of a pair, or null; to be called for pairs in ascending order.
-  const CachedNear* near_of(const ContactKey& pair) {
-    while (near_ != nears_.end() && near_->pair < pair) ++near_;
-    return near_ != nears_.end() && same_pair(near_->pair, pair) ? &*near_ : nullptr;
+  /// What is known of the pairs of shapes of a pair; to be called for pairs in ascending order.
+  std::span<const CachedShapes> pieces_of(const ContactKey& pair) {
+    while (piece_ != pieces_.end() && piece_->pair < pair) ++piece_;
+    const auto begin = piece_;
+    while (piece_ != pieces_.end() && same_pair(piece_->pair, pair)) ++piece_;
+    return {begin, piece_};
   }
 
  private:
   std::span<const Contact> contacts_;
   std::span<const CachedPair> seen_;
-  std::span<const CachedNear> nears_;
+  std::span<const CachedShapes> pieces_;
   std::span<const Contact>::iterator contact_;
   std::span<const CachedPair>::iterator look_;
-  std::span<const CachedNear>::iterator near_;
+  std::span<const CachedShapes>::iterator piece_;
 };
 
 /// Whether any dynamic body is at rest (not active).
@@ -203,7 +189,7 @@ void ContactSet::assign(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen.clear();
-  now_.near.clear();
+  now_.pieces.clear();
   resting_.drop();
 }
 
@@ -212,7 +198,7 @@ void ContactSet::exchange(std::vector<Contact> contacts) {
   may_rest_ = true;
   now_.contacts = std::move(contacts);
   now_.seen = before.seen;
-  now_.near = before.near;
+  now_.pieces = before.pieces;
 }
 
 ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&)>& which) {
@@ -222,7 +208,7 @@ ContactKnowledge ContactSet::take_out(const std::function<bool(const ContactKey&
   now_.clear();
   for (const Contact& c : before.contacts) (which(c.key) ? out : now_).contacts.push_back(c);
   for (const CachedPair& s : before.seen) (which(s.pair) ? out : now_).seen.push_back(s);
-  for (const CachedNear& s : before.near) (which(s.pair) ? out : now_).near.push_back(s);
+  for (const CachedShapes& s : before.pieces) (which(s.pair) ? out : now_).pieces.push_back(s);
   return out;
 }
 
@@ -246,7 +232,7 @@ void ContactSet::find_chunk(const ContactKnowledge& old, std::span<const ProxyPa
     Source source{pair, before.contacts};
     const size_t manifolds = out.sights.manifolds.size(), looks = out.sights.seen.size();
     if (in_pieces(a, b)) {
-      before.near = history.near_of(finder.key(pair));
+      before.pieces = history.pieces_of(finder.key(pair));
       source.carried = CompoundPair(finder, a, b, before).look(out.sights);
     } else if (finder.knows(pair, before)) {
       source.look = before.seen;
@@ -273,7 +259,7 @@ void ContactSet::join(Chunk& chunk, const PairContacts& finder) {
   auto look = chunk.sights.seen.begin();
   const auto contacts = std::span(now_.contacts).subspan(chunk.first_contact, chunk.contacts);
   auto seen = now_.seen.begin() + std::ptrdiff_t(chunk.first_look);
-  std::ranges::move(chunk.sights.near, now_.near.begin() + std::ptrdiff_t(chunk.first_near));
+  std::ranges::copy(chunk.sights.pieces, now_.pieces.begin() + std::ptrdiff_t(chunk.first_piece));
   size_t at = 0;
   for (size_t k = 0; k < chunk.sources.size(); ++k) {
     constexpr size_t ahead = tolerances::pairs_ahead;
@@ -314,8 +300,8 @@ void ContactSet::put_away(const ContactKnowledge& old, std::span<const RigidBody
     if (rest(c.key)) settled_.contacts.push_back(c);
   for (const CachedPair& s : old.seen)
     if (rest(s.pair)) settled_.seen.push_back(s);
-  for (const CachedNear& s : old.near)
-    if (rest(s.pair)) settled_.near.push_back(s);
+  for (const CachedShapes& s : old.pieces)
+    if (rest(s.pair)) settled_.pieces.push_back(s);
   if (!settled_.empty()) resting_.add(settled_, bodies);
 }
 
@@ -348,7 +334,7 @@ void ContactSet::append_resting(std::span<const RigidBody> bodies) {
   std::erase_if(roused_.seen, [&](const CachedPair& s) {
     return seeks(s.pair) || std::binary_search(now_.seen.begin(), now_.seen.end(), s, pair_less);
   });
-  std::erase_if(roused_.near, [&](const CachedNear& s) {
+  std::erase_if(roused_.pieces, [&](const CachedShapes& s) {
     return !std::ranges::binary_search(roused_.seen, s.pair, {}, &CachedPair::pair);
   });
   merge(now_, roused_, both_);
@@ -422,15 +408,15 @@ ContactUpdateStats ContactSet::update(std::span<const RigidBody> bodies, const P
     const size_t here = std::min(pairs.size() - begin, per_chunk);
     find_chunk(old, pairs.subspan(begin, here), finder, chunks[c]);
   });
-  size_t contacts = 0, looks = 0, nears = 0;
+  size_t contacts = 0, looks = 0, pieces = 0;
   for (Chunk& chunk : chunks) {
     chunk.first_contact = std::exchange(contacts, contacts + chunk.contacts);
     chunk.first_look = std::exchange(looks, looks + chunk.looks);
-    chunk.first_near = std::exchange(nears, nears + chunk.sights.near.size());
+    chunk.first_piece = std::exchange(pieces, pieces + chunk.sights.pieces.size());
   }
   make_room(now_.contacts, contacts);
   make_room(now_.seen, looks);
-  make_room(now_.near, nears);
+  make_room(now_.pieces, pieces);
   if (stop_requested()) {
     now_.clear();
     return {};
@@ -467,13 +453,12 @@ void ContactSet::scale_impulses(int parts, std::span<const RigidBody> bodies) {
 
 void ContactSet::add_memory(MemoryUse& use) const {
   for (const ContactKnowledge* k : {&now_, &kept_, &old_, &settled_, &roused_, &both_})
-    use.contacts += heap_bytes(k->contacts, k->seen, k->near);
-  tumble::add_memory(now_.near, use);
+    use.contacts += heap_bytes(k->contacts, k->seen, k->pieces);
   use.contacts += heap_bytes(sides_, paired_, chunks_);
   resting_.add_memory(use);
   for (const Chunk& c : chunks_)
     use.contacts +=
-        heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen, c.sights.near);
+        heap_bytes(c.sources, c.sights.manifolds, c.sights.shapes, c.sights.seen, c.sights.pieces);
 }
 
 void ContactSet::remove_body(uint32_t body) {
@@ -486,7 +471,7 @@ void ContactSet::remove_body(uint32_t body) {
     return s.pair.body_a == body || s.pair.body_b == body;
   };
   std::erase_if(now_.seen, names);
-  std::erase_if(now_.near, names);
+  std::erase_if(now_.pieces, names);
 }
 
 }  // namespace tumble

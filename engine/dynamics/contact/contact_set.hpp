@@ -32,13 +32,13 @@ struct Sights {
   std::vector<ShapesOfPair> shapes;  ///< by manifold, where a body of the pair has several shapes
   std::vector<CachedPair>
       seen;  ///< of pairs whose contacts may be carried along, or that are apart
-  std::vector<CachedNear> near;
+  std::vector<CachedShapes> pieces;
 
   void clear() {
     manifolds.clear();
     shapes.clear();
     seen.clear();
-    near.clear();
+    pieces.clear();
   }
 };
 
@@ -142,8 +142,8 @@ class ContactSet {
   struct Chunk {
     std::vector<Source> sources;
     Sights sights;
-    size_t contacts = 0, looks = 0;                            ///< sums over all sources
-    size_t first_contact = 0, first_look = 0, first_near = 0;  ///< where they begin in now_
+    size_t contacts = 0, looks = 0;                             ///< sums over all sources
+    size_t first_contact = 0, first_look = 0, first_piece = 0;  ///< where they begin in now_
     ContactUpdateStats stats;
   };
   static void find_chunk(const ContactKnowledge& old, std::span<const ProxyPair> pairs,

@@ -8,9 +8,9 @@ namespace tumble {
 
 /// What is remembered of a pair from the tick before.
 struct PairHistory {
-  std::span<const Contact> contacts;  ///< of the pair, sorted by key
-  const CachedPair* seen = nullptr;   ///< null where the narrow phase must run
-  const CachedNear* near = nullptr;   ///< of its shapes; null if none are near
+  std::span<const Contact> contacts;          ///< of the pair, sorted by key
+  const CachedPair* seen = nullptr;           ///< null where the narrow phase must run
+  std::span<const CachedShapes> pieces = {};  ///< of the pair, sorted by shapes
 };
 
 /// Finds the contacts of single pairs, with the forces of the points that they continue. knows()

@@ -141,7 +141,8 @@ void RestingContacts::group(const ContactKnowledge& known, std::span<const Rigid
   }
   for (const Contact& c : known.contacts) piles[pile_of[place(c.key)]].known.contacts.push_back(c);
   for (const CachedPair& s : known.seen) piles[pile_of[place(s.pair)]].known.seen.push_back(s);
-  for (const CachedNear& s : known.near) piles[pile_of[place(s.pair)]].known.near.push_back(s);
+  for (const CachedShapes& s : known.pieces)
+    piles[pile_of[place(s.pair)]].known.pieces.push_back(s);
   for (Pile& pile : piles) {
     pile.known.contacts.shrink_to_fit();
     pile.max_penetration = deepest(pile.known.contacts);
@@ -180,10 +181,8 @@ void RestingContacts::go_back() {
 void RestingContacts::add_memory(MemoryUse& use) const {
   use.bodies += heap_bytes(pile_of_);
   use.contacts += heap_bytes(piles_, free_, undo_);
-  for (const Pile& p : piles_) {
-    use.contacts += heap_bytes(p.bodies, p.known.contacts, p.known.seen, p.known.near);
-    tumble::add_memory(p.known.near, use);
-  }
+  for (const Pile& p : piles_)
+    use.contacts += heap_bytes(p.bodies, p.known.contacts, p.known.seen, p.known.pieces);
 }
 
 }  // namespace tumble

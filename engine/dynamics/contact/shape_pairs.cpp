@@ -46,13 +46,11 @@ bool meets_leaf(const MeshSurface& mesh, const Aabb& box) {
 }
 
 /// Whether a shape may be near the surface of another one; always true unless that is a mesh, whose
-/// bounds contain much empty space. `in_other` is the pose of the body of the first in the frame of
-/// the other's body.
-bool near_surface(const BodyShape& shape, const Pose& in_other, const BodyShape& other,
-                  double reach) {
+/// bounds contain much empty space. `pose` is that of the first shape in the frame of the other's
+/// body.
+bool near_surface(const Shape& shape, const Pose& pose, const BodyShape& other, double reach) {
   if (!other.shape->is_mesh()) return true;
-  const Pose pose = other.pose.inverse() * (in_other * shape.pose);
-  const Aabb box = shape.shape->bounds(pose).inflated(reach);
+  const Aabb box = shape.bounds(other.pose.inverse() * pose).inflated(reach);
   return meets_leaf(other.shape->polyhedral()->surface(), box);
 }
 
@@ -118,7 +116,9 @@ double find_shape_pairs(const SideShapes& a, const SideShapes& b, double reach,
     const Aabb box = many.tree ? s.shape->bounds(there) : Aabb();
     for_shapes_in(many, box.inflated(reach), [&](uint32_t j) {
       const BodyShape& t = many.shapes[j];
-      if (!near_surface(s, in_many, t, reach) || !near_surface(t, in_few, s, reach)) return;
+      if (!near_surface(*s.shape, there, t, reach) ||
+          !near_surface(*t.shape, in_few * t.pose, s, reach))
+        return;
       const double between = (there.x - t.pose.x).norm();
       const double radii = s.shape->bounding_radius() + t.shape->bounding_radius();
       const double apart = std::max(0.0, between - radii);

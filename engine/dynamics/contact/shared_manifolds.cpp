@@ -198,10 +198,9 @@ class Sharing {
       if (out[j].part == part) part += patches_of_cell;
     std::vector<ManifoldPoint>& left = group.points;
     if (left.size() <= 4) return emit_some(left, normal, part, group.first, out, shapes);
-    double extent2 = 0;
+    double extent = 0;
     for (const ManifoldPoint& p : left)
-      extent2 = std::max(extent2, (p.x_world - left[0].x_world).squaredNorm());
-    const double extent = std::sqrt(extent2);
+      extent = std::max(extent, (p.x_world - left[0].x_world).norm());
     Spanned spanned(normal);
     for (; !left.empty(); part += second_manifold) {
       emit_some(left, normal, part, group.first, out, shapes);

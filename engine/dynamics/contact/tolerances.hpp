@@ -17,10 +17,6 @@ inline constexpr double triangles_of_margin = 0.25;
 /// range.
 inline constexpr double list_of_reach = 2;
 
-/// Lists of near shapes that a thread keeps for reuse once nobody holds them any more [-]: as many
-/// as it makes in a tick where some hundred bodies of several shapes move; about a megabyte.
-inline constexpr size_t lists_kept = 1024;
-
 /// Widening of a box before it is compared with the leaves of a mesh's tree, which are in single
 /// precision, as a share of the mesh's size [-].
 inline constexpr double leaf_of_size = 1e-6;
