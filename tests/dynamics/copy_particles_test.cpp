@@ -32,7 +32,7 @@ ParticleSystem filled(ParticleSystemDef def, size_t count) {
 
 ParticleSystem grains(size_t count) {
   ParticleSystemDef def;
-  def.name = "sand";
+  def.name = "sand with a name that is longer than what strings keep in themselves";
   def.friction = 0.3;
   def.grains = GrainDef{0.1, 0.2, 8};
   return filled(def, count);

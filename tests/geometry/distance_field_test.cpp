@@ -72,6 +72,9 @@ std::vector<hard_meshes::Family> solids() {
   out.push_back({"torus", share(at(make_mesh::torus(0.5, 0.2, 24, 12), Vec3::Zero(),
                                    axis_angle(Vec3(1, 2, 3).normalized(), 0.7)))});
   out.push_back({"thin plate", share(thin_plate())});
+  // Sides a thousand times as long as wide: too narrow for normals.
+  out.push_back({"rod", share(at(make_mesh::cylinder(0.5, 0.04, 300), Vec3::Zero(),
+                                 axis_angle(Vec3(1, 2, 3).normalized(), 0.7)))});
   out.push_back({"cavity", share(joined(make_mesh::box(Vec3::Constant(0.5)),
                                         turned_inside_out(make_mesh::icosphere(0.3, 1))))});
   out.push_back(

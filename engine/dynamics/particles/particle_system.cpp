@@ -98,7 +98,7 @@ void copy_particles(ParticleSystem& from, ParticleSystem& to, Crew* crew) {
   // Everything but the arrays is copied while these are elsewhere; the memory of `to` is kept.
   const auto exchange = [](auto& a, auto& b) { a.swap(b); };
   ParticleSystem arrays, memory;
-  std::swap(to, memory);
+  for_arrays(exchange, to, memory);
   for_arrays(exchange, from, arrays);
   to = from;
   for_arrays(exchange, from, arrays);

@@ -7,12 +7,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace tumble {
 namespace {
 
 struct Near {
   uint32_t tile, triangle;
+};
+
+/// The longest side of a triangle, and how far the triangle reaches from it: for one whose normal
+/// is of no use, a bound from below on distances.
+class Needle {
+ public:
+  Needle(const TriangleMesh& mesh, uint32_t t) {
+    double longest = -1;
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = mesh.corner(t, k), &b = mesh.corner(t, (k + 1) % 3);
+      if (!((b - a).squaredNorm() > longest)) continue;
+      longest = (b - a).squaredNorm();
+      start_ = a, side_ = b - a, inverse_square_ = longest > 0 ? 1 / longest : 0;
+      tip_ = mesh.corner(t, (k + 2) % 3);
+    }
+    width_ = std::sqrt(square_from_side(tip_));
+  }
+  /// Whether the triangle is surely farther from p than this [m].
+  bool beyond(const Vec3& p, double distance) const {
+    const double reach = distance + width_;
+    return square_from_side(p) > (1 + tolerances::prune_slack) * reach * reach;
+  }
+
+ private:
+  double square_from_side(const Vec3& p) const {
+    const Vec3 from = p - start_;
+    const double s = std::clamp(from.dot(side_) * inverse_square_, 0.0, 1.0);
+    return (from - s * side_).squaredNorm();
+  }
+
+  Vec3 start_, side_, tip_;
+  double inverse_square_ = 0, width_ = 0;
 };
 
 /// Side of the box of a tile's nodes [m].
@@ -43,12 +77,16 @@ class NearTiles {
     const auto [first, last] = places(low, high);
     const double reach = range_ + size_ / 2 * normal.cwiseAbs().sum();
     const double plane = normal.dot(a);
+    std::optional<Needle> needle;
+    if (narrow) needle.emplace(mesh, t);
+    const double within = range_ + size_ / 2 * std::numbers::sqrt3;
     for (int z = first[2]; z <= last[2]; ++z)
       for (int y = first[1]; y <= last[1]; ++y)
         for (int x = first[0]; x <= last[0]; ++x) {
           const Vec3 corner = layout_.node(tile_nodes * x, tile_nodes * y, tile_nodes * z);
           const Vec3 centre = corner.array() + size_ / 2;
           if (std::fabs(normal.dot(centre) - plane) > reach) continue;
+          if (needle && needle->beyond(centre, within)) continue;
           double gap_square = 0;
           for (int k = 0; k < 3; ++k) {
             const double gap = std::max({corner[k] - high[k], low[k] - corner[k] - size_, 0.0});
@@ -143,14 +181,13 @@ const TileDistances& TileMeasure::squares(const TriangleMesh& mesh, const FieldL
 /// enough (closest_on_triangle).
 void TileMeasure::measure_narrow(const TriangleMesh& mesh, const Vec3& first, double cell) {
   for (const uint32_t t : narrow_) {
-    const Aabb box = triangle_bounds(mesh, t);
+    const Needle needle(mesh, t);
     for (int z = 0; z < tile_nodes; ++z)
       for (int y = 0; y < tile_nodes; ++y)
         for (int x = 0; x < tile_nodes; ++x) {
           const Vec3 p = first + cell * Vec3(x, y, z);
           double& best = best_[node_in_tile(x, y, z)];
-          const Vec3 gap = p - p.cwiseMax(box.min).cwiseMin(box.max);
-          if (gap.squaredNorm() > best) continue;
+          if (needle.beyond(p, std::sqrt(best))) continue;
           best = std::min(
               best, closest_on_triangle(p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))
                         .squared_distance);

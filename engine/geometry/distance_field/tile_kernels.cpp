@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 // Compiles this file once per instruction set, with the includes that each time needs.
 // clang-format off
