@@ -8,14 +8,14 @@
 vec3 picture_colour(vec3 radiance) {
   vec3 c = radiance * exposure;
   // Reflections of the sky lie over every surface like a thin veil; this lifts it.
-  c = clamp(mix(vec3(dot(c, vec3(0.2126, 0.7152, 0.0722))), c, 1.14), 0.0, 1e6);
-  // With p the brightest of the three: rolled = 1 - 0.24^2 / (p - 0.52), white = 1 - 1 / (1 + 0.15 (p -
-  // rolled)), and the colour mix(c * rolled / p, rolled, white), over one common denominator. At 0.76
-  // this leaves c as it is.
-  float p = max(max(c.r, 0.76), max(c.g, c.b)), over = p - 0.52;
-  float whitens = 0.15 * (p * over - over + 0.0576), all = over + whitens;
-  float share = (over - 0.0576) / (p * over * all);
-  return srgb_from_linear(share * over * c + share * whitens * p);
+  c = max(mix(vec3(dot(c, vec3(0.2126, 0.7152, 0.0722))), c, 1.14), 0.0);
+  float peak = max(c.r, max(c.g, c.b));
+  if (peak > 0.76) {
+    float rolled = 1.0 - 0.0576 / (peak - 0.52);
+    float white = 1.0 - 1.0 / (0.15 * (peak - rolled) + 1.0);
+    c = mix(c * (rolled / peak), vec3(rolled), white);
+  }
+  return srgb_from_linear(clamp(c, 0.0, 1.0));
 }
 
 // Light of the sky on a surface whose normal has this vertical part: three tones over the sphere.
