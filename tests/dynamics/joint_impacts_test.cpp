@@ -348,11 +348,12 @@ TEST_CASE("a ball without restitution moves on with the link that it hits, whate
         }
 }
 
-TEST_CASE("a ball without restitution stops at a link that a limit or a strong motor holds") {
+TEST_CASE(
+    "a ball without restitution stops at a link that a limit, a strong motor or a brake holds") {
   // Closed form: nothing moves after the hit. Where a burden is added, it does not either.
   constexpr double speed = 3;
-  enum class Held { limit, burdened_limit, motor };
-  for (const Held held : {Held::limit, Held::burdened_limit, Held::motor})
+  enum class Held { limit, burdened_limit, motor, brake };
+  for (const Held held : {Held::limit, Held::burdened_limit, Held::motor, Held::brake})
     for (const double hz : {60.0, 240.0})
       for (const double ball_mass : {0.5, 10.0}) {
         CAPTURE(int(held));
@@ -363,6 +364,8 @@ TEST_CASE("a ball without restitution stops at a link that a limit or a strong m
         if (held == Held::motor) {
           drives[0].motor.kind = MotorKind::velocity;
           drives[0].motor.max_force = 1e6;
+        } else if (held == Held::brake) {
+          drives[0].friction = 1e6;
         } else {
           drives[0].limits.lower = 0;
         }
@@ -466,4 +469,85 @@ TEST_CASE(
         CHECK(force == doctest::Approx(push).epsilon(0.01));
       }
     }
+}
+
+TEST_CASE(
+    "a lever that presses a block holds it by friction, wherever the force acts on the lever") {
+  // The lever lies flat on the block, so that a force at the tip, above the middle of the block, is
+  // passed on as it is. It turns the lever faster than its share of the force at the centre tells.
+  constexpr double mu = 0.8, tip = 0.45, side = 0.05;
+  enum class Load { force, spring };
+  for (const Load load : {Load::force, Load::spring})
+    for (const double hz : {60.0, 240.0})
+      for (const double force : {10.0, 100.0}) {
+        CAPTURE(int(load));
+        CAPTURE(hz);
+        CAPTURE(force);
+        JointWorld w(hz);
+        w.gravity.setZero();
+        BodyDef d = body(box(c, side, side), {c, 0, 0}, mu);
+        d.mass = 1;
+        const uint32_t lever = w.add(d);
+        w.join(JointKind::revolute, no_body, lever, Pose{});
+        d = body(box(side, side, side), {c + tip, -2 * side, 0}, mu);
+        d.mass = 1;
+        const uint32_t block = w.add(d);
+        Joint& rail =
+            w.join(JointKind::prismatic, no_body, block, Pose{d.pose.x, Quat::Identity()});
+        JointDrives drives;
+        drives[0].motor.kind = MotorKind::force;
+        drives[0].motor.target = 0.7 * mu * force;
+        rail.drives = std::make_shared<JointDrives>(drives);
+        const Vec3 anchor(c + tip, -0.6, 0);
+        constexpr double stretch = 0.15;
+        w.before_step = [&] {
+          RigidBody& b = w.bodies[lever];
+          const Vec3 arm = b.pose.q * Vec3(tip, -side, 0), way = anchor - b.pose.x - arm;
+          b.force = Vec3(0, -force, 0);
+          if (load == Load::spring)
+            b.force = force / stretch * (way.norm() - 0.55 + stretch) * way.normalized();
+          b.torque = arm.cross(b.force);
+        };
+        w.run(1);
+        CHECK(std::fabs(w.bodies[block].pose.x.z()) < 2e-4);
+        REQUIRE(w.contacts.size() == 1);
+        const Contact& contact = w.contacts.contacts()[0];
+        double pressed = 0;
+        for (const ContactPoint& p : contact.used()) {
+          pressed += p.normal_force;
+          CHECK(p.normal_force > 0.1 * force);
+        }
+        CHECK(pressed == doctest::Approx(force).epsilon(0.01));
+      }
+}
+
+TEST_CASE(
+    "a motor gives no more than its greatest force in a tick with a hit, and drives with it") {
+  constexpr double speed = 3, ball_mass = 5;
+  for (const double hz : {60.0, 240.0})
+    for (const double target : {-50.0, 0.0, 50.0})
+      for (const double most : {2.0, 20.0, 200.0}) {
+        CAPTURE(hz);
+        CAPTURE(target);
+        CAPTURE(most);
+        RodRow row(1, hz, 0);
+        JointDrives drives;
+        drives[0].motor.kind = MotorKind::velocity;
+        drives[0].motor.target = target;
+        drives[0].motor.max_force = most;
+        row.joints[0].drives = std::make_shared<JointDrives>(drives);
+        BodyDef d = body(sphere(0.05), {0.9, 0.13, 0}, 0);
+        d.mass = ball_mass;
+        d.velocity = {0, -speed, 0};
+        const uint32_t ball = row.add(d);
+        for (int tick = 0; tick < 0.1 * hz; ++tick) {
+          const double before = row.bodies[ball].v.y();
+          row.step();
+          const double impulse = row.joints[0].motor_impulse[0];
+          CHECK(std::fabs(impulse) <= most * row.h * (1 + 1e-9));
+          // The ball takes the rod to no more than 3.3 rad/s.
+          if (row.bodies[ball].v.y() != before && std::fabs(target) == 50)
+            CHECK(impulse == doctest::Approx(std::copysign(most * row.h, target)).epsilon(1e-6));
+        }
+      }
 }

@@ -31,6 +31,11 @@ double DriveRow::implicit_share(double hs) const {
   return (left - 1 + a) / (a * (1 - left));
 }
 
+double DriveRow::target_rate(JointPass pass, double hs) const {
+  // The bodies move with the velocity in the middle of the sub-step.
+  return drive->motor.target_at(pass == JointPass::moving ? t + 0.5 * hs : t + hs);
+}
+
 void DriveRow::set_law(JointPass pass, double hs) {
   law.clear();
   const double half = 0.5 * hs;
@@ -41,16 +46,19 @@ void DriveRow::set_law(JointPass pass, double hs) {
   } else {
     set_relaxing(hs);
   }
+  const auto put_rest = [&](Cause cause, double at, double bound) {
+    return put_step(cause, at, -bound - spent[cause], bound - spent[cause]);
+  };
   const double most = half * drive->motor.max_force;
-  // The bodies move with the velocity in the middle of the sub-step.
-  const double target = drive->motor.target_at(pass == JointPass::moving ? t + half : t + hs);
-  if (drive->motor.kind == MotorKind::velocity) motor_rate = put_step(motor, target, -most, most);
+  if (drive->motor.kind == MotorKind::velocity)
+    motor_rate = put_rest(motor, target_rate(pass, hs), most);
   if (drive->motor.kind == MotorKind::force) {
     const double force = std::clamp(half * drive->motor.target_at(t + half), -most, most);
     put(motor, force, 0, force, force);
   }
-  if (drive->friction > 0) put_step(friction, 0, -half * drive->friction, half * drive->friction);
+  if (drive->friction > 0) put_rest(friction, 0, half * drive->friction);
   if (drive->armature > 0) put(other, drive->armature * rate, drive->armature, -no_bound, no_bound);
+  spent.fill(0);
 }
 
 void DriveRow::set_moving(double hs) {
@@ -80,12 +88,17 @@ void DriveRow::set_moving(double hs) {
   if (l.upper < no_bound) pull(upper, l.stiffness, at_upper ? l.damping : 0, l.upper, -no_bound, 0);
 }
 
+bool DriveRow::limits_bounce() const {
+  const CoordinateLimits& l = drive->limits;
+  return l.hard() && l.restitution > 0 && !drive->motor.holds_rate_with_any_force();
+}
+
 /// Whether a bouncing limit lies within what twice the present speed covers in the sub-step. A
 /// limit that is reached otherwise was reached by acceleration within the sub-step, which is no
-/// impact. A motor of unlimited force would be back at the limit at once.
+/// impact.
 bool DriveRow::may_bounce(double hs) const {
+  if (!limits_bounce()) return false;
   const CoordinateLimits& l = drive->limits;
-  if (!l.hard() || l.restitution == 0 || drive->motor.holds_rate_with_any_force()) return false;
   const double end = value + curve + 2 * hs * rate;
   return end < l.lower || end > l.upper;
 }
@@ -182,6 +195,12 @@ double DriveRow::taken(double first, double last) const {
   if (drive->limits.hard()) held += shares[lower] + shares[upper];
   return -0.5 * held * (first + last - 2 * held_rate()) -
          0.5 * drive->armature * (v - noted) * (v + noted - 2 * held_rate());
+}
+
+void DriveRow::add_hit(Cause cause, double impulse, double work) {
+  spent[cause] = impulse;
+  if (cause == motor) motor_impulse += impulse;
+  (cause == motor ? motor_work : cause == friction ? friction_work : limit_work) += work;
 }
 
 void DriveRow::add_up(JointPass pass) {

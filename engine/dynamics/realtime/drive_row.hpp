@@ -36,7 +36,10 @@ struct DriveRow {
   double mass = 0;    ///< compliance: change of velocity per impulse
   ForceLaw law;
   std::array<uint8_t, ForceLaw::most_parts> cause_of{};
-  Shares shares{};        ///< impulses of the pass, by cause
+  Shares shares{};  ///< impulses of the pass, by cause
+  /// Impulses of motor and friction in a hit before the pass: together with those of the pass they
+  /// are within the bounds of a pass.
+  Shares spent{};
   double v = 0;           ///< velocity along the coordinate at the end of the pass
   double t = 0;           ///< start of the sub-step, since the tick began [s]
   double motor_rate = 0;  ///< velocity that a velocity motor holds
@@ -58,6 +61,10 @@ struct DriveRow {
   // Sums over the sub-steps so far.
   double motor_impulse = 0, motor_work = 0, friction_work = 0, limit_work = 0;
 
+  /// Whether hard limits bounce. A motor of unlimited force would be back at the limit at once.
+  bool limits_bounce() const;
+  /// The rate that a velocity motor is to hold in a pass.
+  double target_rate(JointPass pass, double hs) const;
   /// Sets up the law for a pass of a sub-step of `hs` seconds.
   void set_law(JointPass pass, double hs);
   /// Adds the limits to the law after a moving pass without them, which gave the velocity
@@ -77,6 +84,8 @@ struct DriveRow {
   double taken(double first, double last) const;
   /// Whether a limit bounces in the relaxing pass.
   bool bounces() const { return bounce_lower > 0 || bounce_upper > 0; }
+  /// Adds impulse and work of a hit to the sums.
+  void add_hit(Cause cause, double impulse, double work);
   /// Adds impulses and work of a pass to the sums; to be called after either pass. The work of a
   /// hard limit is that of its impulses in both passes at once: its impact falls into both, and in
   /// the first of them soft constraints keep a part of the speed that the impact takes.

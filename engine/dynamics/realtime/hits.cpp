@@ -1,5 +1,6 @@
 #include "engine/dynamics/realtime/hits.hpp"
 
+#include "engine/dynamics/realtime/integrate_bodies.hpp"
 #include "engine/dynamics/realtime/joint_lines.hpp"
 #include "engine/dynamics/realtime/tolerances.hpp"
 #include "engine/math/block_ldl.hpp"
@@ -149,47 +150,88 @@ struct Candidate {
   const ContactRow* row;
   PointRow* point;
   double least;  ///< speed along the normal after the impact [m/s]
+  bool hit;
 };
 
-/// A limit or a motor of a coordinate, which takes part like a contact.
+/// What acts along a coordinate by steps takes part like a contact: hard limits, motors that hold a
+/// rate, friction.
 struct Hold {
   JointBlock* joint;
   uint32_t row;
   DriveRow* drive;
-  bool motor;
-  double sign;         ///< of its impulse along the coordinate: -1 for an upper limit
-  double target;       ///< speed in that direction after the impact
+  DriveRow::Cause cause;
+  double target;       ///< speed after the impact, or the least (lower) or greatest (upper)
   double least, most;  ///< impulse
+  double rate;         ///< that a motor is to hold
 };
 
-/// Hard limits end the motion of the sub-step as contacts do. A motor that holds a rate resists a
-/// change of it by as much as it can do in a sub-step.
-std::vector<Hold> holds_of(const SolverIsland& island, double hs) {
+double line_velocity(const BodyVelocity& a, const BodyVelocity& b, const JointBlock::Line& row) {
+  return row.linear.dot(b.v - a.v) + row.angular_a.dot(a.omega) + row.angular_b.dot(b.omega);
+}
+
+/// A coordinate before a pass, where it has the speed `speed`, of which forces have just brought
+/// `brought`; `start` is the impulse with which the pass starts.
+struct HeldCoordinate {
+  double speed, brought, start;
+};
+
+/// Adds the holds of one coordinate.
+void add_holds(const HeldCoordinate& at, double hs, JointPass pass, Hold hold,
+               std::vector<Hold>& out) {
+  const DriveRow& d = *hold.drive;
+  const CoordinateLimits& limits = d.drive->limits;
+  const CoordinateMotor& motor = d.drive->motor;
+  const auto add = [&](DriveRow::Cause cause, double target, double least, double most) {
+    hold.cause = cause, hold.target = target, hold.least = least, hold.most = most;
+    out.push_back(hold);
+  };
+  double lowest = -no_bound, highest = no_bound;
+  // A limit that bounces does so by itself, with the speed that the hit leaves.
+  if (limits.hard() && !d.limits_bounce()) {
+    if (limits.lower > -no_bound) {
+      lowest = std::min(at.speed, -std::max(d.value - limits.lower, 0.0) / hs);
+      add(DriveRow::lower, lowest, 0, no_bound);
+    }
+    if (limits.upper < no_bound) {
+      highest = std::max(at.speed, std::max(limits.upper - d.value, 0.0) / hs);
+      add(DriveRow::upper, highest, -no_bound, 0);
+    }
+  }
+  // What forces bring about, and what the impulse of the pass would be without the hit, is left to
+  // the pass: a motor that pulls with all of its force anyway adds nothing.
+  const auto add_step = [&](DriveRow::Cause cause, double rate, double force) {
+    const double bound = 0.5 * hs * force, missing = rate + at.brought - at.speed;
+    const double guess = at.start + (d.mass > 0 ? missing / d.mass : 0);
+    const double without = std::clamp(guess, -bound, bound);
+    const double target = rate + at.brought;
+    hold.rate = rate;
+    add(cause, bound == no_bound ? std::clamp(target, lowest, highest) : target, -bound - without,
+        bound - without);
+  };
+  if (motor.kind == MotorKind::velocity)
+    add_step(DriveRow::motor, d.target_rate(pass, hs), motor.max_force);
+  if (d.drive->friction > 0) add_step(DriveRow::friction, 0, d.drive->friction);
+}
+
+/// Those of all coordinates; forces have just changed the velocity of a body by gained(body).
+template <class G>
+std::vector<Hold> holds_of(const SolverIsland& island, double hs, JointPass pass, const G& gained) {
   std::vector<Hold> out;
   for (JointBlock& joint : island.joints) {
     const std::span<DriveRow> drives = drives_of(island, joint);
     for (uint32_t k = 0; k < drives.size(); ++k) {
-      const CoordinateLimits& limits = drives[k].drive->limits;
-      const CoordinateMotor& motor = drives[k].drive->motor;
       const uint32_t row = joint.kept + k;
-      const double speed =
-          line_velocity(island.bodies[joint.a], island.bodies[joint.b], joint.lines[row]);
-      const auto stop = [&](double sign, double room) {
-        const double target = std::min(sign * speed, -std::max(room, 0.0) / hs);
-        out.push_back({&joint, row, &drives[k], false, sign, target, 0, no_bound});
-      };
-      if (limits.hard() && limits.lower > -no_bound) stop(1, drives[k].value - limits.lower);
-      if (limits.hard() && limits.upper < no_bound) stop(-1, limits.upper - drives[k].value);
-      if (motor.kind == MotorKind::velocity) {
-        const double most = hs * motor.max_force;
-        out.push_back({&joint, row, &drives[k], true, 1, speed, -most, most});
-      }
+      const JointBlock::Line& line = joint.lines[row];
+      const HeldCoordinate at{line_velocity(island.bodies[joint.a], island.bodies[joint.b], line),
+                              line_velocity(gained(joint.a), gained(joint.b), line),
+                              joint.total(row, pass)};
+      add_holds(at, hs, pass, {&joint, row, &drives[k], DriveRow::other, 0, 0, 0, 0}, out);
     }
   }
   return out;
 }
 
-/// The impact as a problem of the contact points and limits alone: speeds along the axes of points
+/// The impact as a problem of the contact points and holds alone: speeds along the axes of points
 /// (n, t1, t2 for each), then along coordinates, and W = J M^-1 J^T for the bodies with their
 /// joints.
 class Impact {
@@ -202,11 +244,8 @@ class Impact {
         add_end(line, c.row->a, -axis, -c.point->ra.cross(axis));
         add_end(line, c.row->b, axis, c.point->rb.cross(axis));
       }
-    for (const Hold& hold : holds_) {
-      JointBlock::Line of = hold.joint->lines[hold.row];
-      of.linear *= hold.sign, of.angular_a *= hold.sign, of.angular_b *= hold.sign;
-      add_ends(lines_.emplace_back(), hold.joint->a, hold.joint->b, of);
-    }
+    for (const Hold& hold : holds_)
+      add_ends(lines_.emplace_back(), hold.joint->a, hold.joint->b, hold.joint->lines[hold.row]);
     for (const Line& line : lines_) before_.push_back(line_velocity(island, line));
     set_compliances();
   }
@@ -244,8 +283,11 @@ class Impact {
     return true;
   }
 
-  /// Applies the impulses; returns the energy that contacts with restitution and limits took [J].
+  /// Applies the impulses; returns the energy that contacts with restitution and holds took [J].
   double apply() const {
+    // The work of a limit in both passes is reckoned from the speed before the first of them, to
+    // which this change does not belong.
+    for_drives([](DriveRow& d, double speed) { d.entered -= speed; });
     std::vector<double> of_joints(joints_.size());
     for (size_t i = 0; i < lines_.size(); ++i) {
       push_line(island_, lines_[i], impulses_[i]);
@@ -264,23 +306,34 @@ class Impact {
     for (size_t k = 0; k < holds_.size(); ++k) {
       const Hold& hold = holds_[k];
       const size_t i = 3 * points_.size() + k;
-      const double impulse = hold.sign * impulses_[i];
+      const double impulse = impulses_[i];
       hold.joint->add(push_of(hold.joint->lines[hold.row], impulse));
-      if (hold.motor) hold.drive->motor_impulse += impulse;
-      (hold.motor ? hold.drive->motor_work : hold.drive->limit_work) += work(i);
-      if (!hold.motor) taken -= work(i);
+      hold.drive->add_hit(hold.cause, impulse, work(i));
+      // A motor that holds its rate takes energy from the motion relative to that.
+      if (hold.cause != DriveRow::motor)
+        taken -= work(i);
+      else if (hold.least < impulse && impulse < hold.most)
+        taken -= work(i) - impulse * hold.rate;
     }
     // Armatures follow.
-    for (const JointBlock& joint : island_.joints) {
-      const std::span<DriveRow> drives = drives_of(island_, joint);
-      for (uint32_t k = 0; k < drives.size(); ++k)
-        drives[k].v = line_velocity(island_.bodies[joint.a], island_.bodies[joint.b],
-                                    joint.lines[joint.kept + k]);
-    }
+    for_drives([](DriveRow& d, double speed) {
+      d.v = speed;
+      d.entered += speed;
+    });
     return taken;
   }
 
  private:
+  /// Calls f(drive, the speed along its coordinate).
+  template <class F>
+  void for_drives(const F& f) const {
+    for (const JointBlock& joint : island_.joints) {
+      const std::span<DriveRow> drives = drives_of(island_, joint);
+      for (uint32_t k = 0; k < drives.size(); ++k)
+        f(drives[k], line_velocity(island_.bodies[joint.a], island_.bodies[joint.b],
+                                   joint.lines[joint.kept + k]));
+    }
+  }
   void set_compliances() {
     const size_t n = lines_.size(), m = joints_.size();
     answers_.resize(n * m);
@@ -316,18 +369,15 @@ class Impact {
   std::vector<double> before_, impulses_;  ///< by line
 };
 
-/// Calls f(row, index of the point, its gap, its approach speed, that which forces explain).
+/// Calls f(row, index of the point, its gap, its approach speed).
 template <class F>
-void for_points(const SolverIsland& island, double hs, const F& f) {
+void for_points(const SolverIsland& island, const F& f) {
   for (const ContactRow& row : island.rows) {
     const SolverBody &a = island.bodies[row.a], &b = island.bodies[row.b];
-    const double by_forces = std::fabs(
-        row.n.dot(island.motions[row.b].acceleration - island.motions[row.a].acceleration));
-    const double explained = tolerances::limit_rest_speed + 2 * hs * by_forces;
     for (uint32_t i = row.first; i < row.first + row.count; ++i) {
       const PointRow& p = island.points[i];
       const double approach = -row.n.dot(b.v + b.w.cross(p.rb) - a.v - a.w.cross(p.ra));
-      f(row, i, gap_of(island, row, p), approach, explained);
+      f(row, i, gap_of(island, row, p), approach);
     }
   }
 }
@@ -336,45 +386,65 @@ bool takes_hits(const SolverIsland& island) {
   return !island.joints.empty() && island.joints.size() <= tolerances::most_joints_of_hit;
 }
 
-/// Solves the impact at points for which is_hit(index) holds.
-template <class F>
-double solve_hit(const SolverIsland& island, double hs, const F& is_hit) {
+/// If there are too many points, keeps those that are hit, then those of bodies that are hit.
+void keep_nearest(const SolverIsland& island, std::vector<Candidate>& points) {
+  if (points.size() <= tolerances::most_points_of_hit) return;
+  std::vector<uint8_t> struck(island.bodies.size());
+  for (const Candidate& c : points)
+    if (c.hit) struck[c.row->a] = struck[c.row->b] = 1;
+  const auto of_struck = [&](uint32_t body) { return struck[body] && moves(island, body); };
+  std::ranges::stable_sort(points, {}, [&](const Candidate& c) {
+    return c.hit ? 0 : of_struck(c.row->a) || of_struck(c.row->b) ? 1 : 2;
+  });
+  points.resize(tolerances::most_points_of_hit);
+}
+
+/// Solves the impact before a pass at these points, of which there are some.
+template <class G>
+double solve_hit(const SolverIsland& island, double hs, JointPass pass, const HitPoints& hits,
+                 const G& gained) {
   std::vector<Candidate> candidates;
   double fastest = 0;
-  for_points(island, hs,
-             [&](const ContactRow& row, uint32_t i, double gap, double approach, double) {
-               const double touching = std::max(gap, 0.0) / hs;
-               if (!(approach > touching) && !(island.points[i].normal > 0)) return;
-               // Points that are not hit press on: what forces bring about there, the passes solve.
-               const bool hit = is_hit(i);
-               if (hit) fastest = std::max(fastest, approach);
-               candidates.push_back(
-                   {&row, &island.points[i], -(hit ? touching : std::max(touching, approach))});
-             });
-  if (!(fastest > 0) || candidates.size() > tolerances::most_points_of_hit) return 0;
-  const std::vector<Hold> holds = holds_of(island, hs);
+  for_points(island, [&](const ContactRow& row, uint32_t i, double gap, double approach) {
+    const double touching = std::max(gap, 0.0) / hs;
+    if (!(approach > touching) && !(island.points[i].normal > 0)) return;
+    // Points that are not hit press on: what forces bring about there, the passes solve.
+    const bool hit = std::ranges::binary_search(hits, i);
+    if (hit) fastest = std::max(fastest, approach);
+    candidates.push_back(
+        {&row, &island.points[i], -(hit ? touching : std::max(touching, approach)), hit});
+  });
+  if (!(fastest > 0)) return 0;
+  keep_nearest(island, candidates);
+  const std::vector<Hold> holds = holds_of(island, hs, pass, gained);
   Impact impact(island, candidates, holds);
   return impact.solve() ? impact.apply() : 0;
 }
 
 }  // namespace
 
-double hit_before_motion(const SolverIsland& island, double hs, HitPoints& points) {
+double hit_before_motion(const SolverContext& c, const SolverIsland& island, double hs,
+                         HitPoints& points) {
   points.clear();
   if (!takes_hits(island)) return 0;
-  for_points(island, hs,
-             [&](const ContactRow&, uint32_t i, double gap, double approach, double explained) {
-               // After the motion, points may approach by no more than their gap in the next
-               // sub-step.
-               if (approach > explained && 2 * hs * approach > gap) points.push_back(i);
-             });
+  const auto gained = [&](uint32_t body) { return gained_velocity(c, island, body, island.kick); };
+  for_points(island, [&](const ContactRow& row, uint32_t i, double gap, double approach) {
+    const PointRow& p = island.points[i];
+    const BodyVelocity a = gained(row.a), b = gained(row.b);
+    const double by_forces = row.n.dot(b.v + b.omega.cross(p.rb) - a.v - a.omega.cross(p.ra));
+    const double explained = tolerances::limit_rest_speed + 2 * std::fabs(by_forces);
+    // After the motion, points may approach by no more than their gap in the next sub-step.
+    if (approach > explained && 2 * hs * approach > gap) points.push_back(i);
+  });
+  if (points.empty()) return 0;
   std::ranges::sort(points);
-  return hit_after_motion(island, hs, points);
+  return solve_hit(island, hs, JointPass::moving, points, gained);
 }
 
 double hit_after_motion(const SolverIsland& island, double hs, const HitPoints& points) {
   if (points.empty()) return 0;
-  return solve_hit(island, hs, [&](uint32_t i) { return std::ranges::binary_search(points, i); });
+  return solve_hit(island, hs, JointPass::relaxing, points,
+                   [](uint32_t) { return BodyVelocity{}; });
 }
 
 }  // namespace tumble

@@ -19,7 +19,8 @@ using HitPoints = std::vector<uint32_t>;
 /// To be called when forces have acted on the velocities, and joints have not, for what joints
 /// press together is no hit: leaves the speeds with which the bodies just touch at the end of the
 /// sub-step. Returns the energy that contacts with restitution took [J].
-double hit_before_motion(const SolverIsland& island, double hs, HitPoints& points);
+double hit_before_motion(const SolverContext& context, const SolverIsland& island, double hs,
+                         HitPoints& points);
 /// To be called before the relaxing pass: takes the rest of the speed of these points, as far as
 /// they would close in the next sub-step.
 double hit_after_motion(const SolverIsland& island, double hs, const HitPoints& points);

@@ -65,17 +65,22 @@ void spin(const RigidBody& body, Quat& q, Vec3& omega, double h, int most) {
 
 }  // namespace
 
+BodyVelocity gained_velocity(const SolverContext& c, const SolverIsland& island, uint32_t body,
+                             double hs) {
+  const SolverMotion& motion = island.motions[body];
+  if (motion.on_course) return {hs * motion.acceleration, hs * motion.turning};
+  if (!motion.dynamic) return {};
+  return {hs * motion.acceleration,
+          island.bodies[body].inverse_inertia * (hs * c.bodies[motion.slot].torque)};
+}
+
 void integrate_velocities(const SolverContext& c, const SolverIsland& island, double hs) {
-  for (size_t i = 0; i < island.bodies.size(); ++i) {
+  for (uint32_t i = 0; i < island.bodies.size(); ++i) {
     const SolverMotion& motion = island.motions[i];
-    SolverBody& body = island.bodies[i];
-    if (motion.on_course) {
-      body.v += hs * motion.acceleration;
-      body.w += hs * motion.turning;
-    }
-    if (!motion.dynamic) continue;
-    body.v += hs * motion.acceleration;
-    body.w += body.inverse_inertia * (hs * c.bodies[motion.slot].torque);
+    if (!motion.on_course && !motion.dynamic) continue;
+    const BodyVelocity gained = gained_velocity(c, island, i, hs);
+    island.bodies[i].v += gained.v;
+    island.bodies[i].w += gained.omega;
   }
 }
 

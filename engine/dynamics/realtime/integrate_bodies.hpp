@@ -3,6 +3,9 @@
 
 namespace tumble {
 
+/// What gravity, force and torque, or a course, change the velocity of a solver body by in `hs`.
+BodyVelocity gained_velocity(const SolverContext& context, const SolverIsland& island,
+                             uint32_t body, double hs);
 /// Changes velocities by gravity, force and torque over `hs`.
 void integrate_velocities(const SolverContext& context, const SolverIsland& island, double hs);
 /// Moves positions and orientations over a sub-step; changes the angular velocity so that angular

@@ -99,7 +99,7 @@ SolveResiduals solve_island(const SolverContext& c, SolverIsland& island, int n)
     if (i > 0) end_substep(island, hs, false);
     if (measured) note_pass(0);
     integrate_velocities(c, island, kick);
-    taken += hit_before_motion(island, hs, hit);
+    taken += hit_before_motion(c, island, hs, hit);
     if (measured && !hit.empty()) note_pass(0);
     warm_start(island);
     if (!island.springs.empty()) start_springs(c, island, hs, i == 0);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <future>
 #include <thread>
+#include <utility>
 
 using namespace tumble;
 using namespace tumble::test;
@@ -610,40 +611,96 @@ TEST_CASE("description: names of a robot's parts are those of the robot that is 
   check_no_faults(*b.device);
 }
 
-TEST_CASE("description: no picture waits for a slow tick after a change, which is kept later") {
-  const auto device = make_null_device();
-  Rig rig(*device, "first", true);
-  const std::string file = (rig.folder.path() / "mine.json").string();
-  const std::string start = "{\n  \"tumble_scene\": 1,\n" + two_bodies + "\n}\n";
-  REQUIRE(write_file(file, std::string_view(start)).ok());
-  rig.app->open(file);
-  const auto wait_for = [&](const auto& holds) {
+namespace {
+
+/// The two bodies with a session of its own thread that is busy until it is let go.
+struct Busy {
+  std::unique_ptr<Device> device = make_null_device();
+  Rig rig{*device, "first", true};
+  std::string file = (rig.folder.path() / "mine.json").string();
+  std::string start = "{\n  \"tumble_scene\": 1,\n" + two_bodies + "\n}\n";
+  std::promise<void> let_go;
+  bool busy = true;
+
+  Busy() {
+    REQUIRE(write_file(file, std::string_view(start)).ok());
+    rig.app->open(file);
+    wait_for([&] { return rig.app->scene_name() != "first" && rig.tick() > 0; });
+    rig.app->session().post([until = let_go.get_future().share()](World&) { until.wait(); });
+  }
+  ~Busy() { end(); }
+  void end() {
+    if (std::exchange(busy, false)) let_go.set_value();
+  }
+  template <class Holds>
+  void wait_for(const Holds& holds) {
     for (int i = 0; i < 2000 && !holds(); ++i) {
       rig.frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     REQUIRE(holds());
-  };
-  wait_for([&] { return rig.app->scene_name() != "first" && rig.tick() > 0; });
-  // The session is busy until it is let go.
-  std::promise<void> let_go;
-  rig.app->session().post([busy = let_go.get_future().share()](World&) { busy.wait(); });
-  const ScenePath radius = ScenePath{} / "bodies" / "ball" / "shape" / "radius";
+  }
+  void set_radius(const char* value) {
+    rig.app->ask(EditDescription{ScenePath{} / "bodies" / "ball" / "shape" / "radius",
+                                 EditDescription::How::set, value});
+  }
+  /// What is kept of unsaved work; "": nothing.
+  std::string kept() const {
+    if (!std::filesystem::exists(rig.unsaved())) return {};
+    for (const auto& one : std::filesystem::directory_iterator(rig.unsaved()))
+      if (one.path().extension() == ".json") return *read_file(one.path());
+    return {};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("description: no picture waits for a slow tick after a change, which is kept at once") {
+  Busy b;
   const auto begun = std::chrono::steady_clock::now();
-  rig.app->ask(EditDescription{radius, EditDescription::How::set, "0.25"});
-  rig.app->ask(EditDescription{radius, EditDescription::How::set, "0.125"});
+  b.set_radius("0.25");
+  b.set_radius("0.125");
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
   CHECK(taken.count() < 0.4);  // it waited for half a second for each
-  let_go.set_value();
-  wait_for([&] {
-    if (!std::filesystem::exists(rig.unsaved())) return false;
-    for (const auto& kept : std::filesystem::directory_iterator(rig.unsaved()))
-      if (kept.path().extension() == ".json" &&
-          *read_file(kept.path()) == with(start, "0.5 }", "0.125 }"))
-        return true;
-    return false;
-  });
-  check_no_faults(*device);
+  const std::string changed = with(b.start, "0.5 }", "0.125 }");
+  CHECK(b.kept() == changed);
+  // Who quits now is told that it is kept, and it is.
+  b.rig.play("key Ctrl+Q\nwait 3");
+  CHECK(b.rig.app->locate("question.quit").has_value());
+  b.rig.play("click question.quit\nwait 2");
+  CHECK(b.rig.app->quit_requested());
+  CHECK(b.kept() == changed);
+  // Set back by hand there is nothing to keep, before the session has answered and after.
+  b.set_radius("0.5");
+  CHECK(b.kept().empty());
+  b.end();
+  for (int i = 0; i < 40; ++i) {
+    b.rig.frame();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  CHECK(b.kept().empty());
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: a change that is taken back before the session has answered is not kept") {
+  Busy b;
+  b.set_radius("0.25");
+  REQUIRE_FALSE(b.kept().empty());
+  b.rig.play("key Ctrl+Z\nwait 2");
+  b.end();
+  b.wait_for([&] { return b.kept().empty(); });
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("description: what is changed in a slow tick is done to a file that others change then") {
+  Busy b;
+  b.set_radius("0.25");
+  const std::string others = with(b.start, "\"wood\"", "\"steel\"");
+  REQUIRE(write_file(b.file, std::string_view(others)).ok());
+  for (int i = 0; i < 60; ++i) b.rig.frame();  // its file is looked at four times a second
+  b.end();
+  b.wait_for([&] { return b.kept() == with(others, "0.5 }", "0.25 }"); });
+  check_no_faults(*b.device);
 }
 
 TEST_CASE("description: what was saved is a part of the text that is changed next") {

@@ -166,11 +166,17 @@ std::optional<UnsavedWork::Kept> UnsavedWork::kept() const {
 void UnsavedWork::expect(std::string text) {
   look_again();
   expected_ = std::move(text);
+  expected_asked_ = false;
+  keep();  // the session may be busy until the program ends
 }
 
 void UnsavedWork::look_again() {
   note();
   expected_.reset();
+  hurry();
+}
+
+void UnsavedWork::hurry() {
   since_ = seconds_between_looks;
 }
 
@@ -183,17 +189,21 @@ void UnsavedWork::update(Session& session, const std::vector<UndoStepEdits>& und
     return;
   }
   if (!stale_ || file_.text.empty() || since_ < seconds_between_looks) return;
-  stale_ = false;
   since_ = 0;
+  ask(session, undo_steps);
+}
+
+void UnsavedWork::ask(Session& session, const std::vector<UndoStepEdits>& undo_steps) {
   collected_ = collect_edits(session, undo_steps);
+  stale_ = false;
+  expected_asked_ = true;
 }
 
 void UnsavedWork::finish(Session& session, const std::vector<UndoStepEdits>& undo_steps,
                          bool own_thread) {
-  if (file_.text.empty() || (!stale_ && !collected_.valid())) return;
+  if (known()) return;
   // A query sent before the newest change does not include it.
-  if (stale_ || !collected_.valid()) collected_ = collect_edits(session, undo_steps);
-  stale_ = false;
+  if (stale_ || !collected_.valid()) ask(session, undo_steps);
   if (!own_thread) (void)session.advance(0);
   if (collected_.wait_for(patience) == std::future_status::ready) take(collected_.get());
 }
@@ -229,29 +239,30 @@ std::optional<std::string> UnsavedWork::text_with(const std::string& text,
 }
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {
-  if (!stale_) expected_.reset();  // else these are the changes before the one that is expected
+  // An answer to an earlier question does not have the change that is expected.
+  if (expected_asked_) expected_.reset();
   edits_ = std::move(edits);
   const std::optional<std::string> saved = text_with(file_.text, edits_);
   if (!saved) {  // what was kept last stays
     any_ = any_ || !edits_.empty();
     return;
   }
-  const std::string& now = *saved;
-  any_ = now != file_.on_disk;
-  if (now == text_) return;
-  text_ = now;
+  any_ = *saved != file_.on_disk;
+  text_ = *saved;
   keep();
 }
 
 /// Writes the unsaved work to its file; removes the file if everything is saved.
 void UnsavedWork::keep() {
   if (folder_.empty() || file_.text.empty()) return;
-  if (!any_) return throw_away(keep_in_);
+  if (!any()) return throw_away(keep_in_);
+  if (text() == kept_text_) return;
   std::error_code none;
   fs::create_directories(folder_, none);
   if (keep_in_.empty()) claim_file();
   // A full disk must not stop the work; saving will report it.
-  if (!keep_in_.empty()) (void)write_file(keep_in_, std::string_view(text_));
+  if (!keep_in_.empty() && write_file(keep_in_, std::string_view(text())).ok())
+    kept_text_ = text();
 }
 
 void UnsavedWork::saved(const SceneFile& file) {
@@ -259,6 +270,7 @@ void UnsavedWork::saved(const SceneFile& file) {
   file_.path = file_.read_from = file.path;
   file_.on_disk = file.on_disk;
   keep_in_.clear();
+  kept_text_.clear();
   any_ = false;
   expected_.reset();
   stale_ = true;  // the newest change may have continued
@@ -271,7 +283,9 @@ void UnsavedWork::throw_away(const fs::path& kept) {
   std::error_code none;
   fs::remove(file, none);
   held_.erase(file);
-  if (keep_in_ == file) keep_in_.clear();
+  if (keep_in_ != file) return;
+  keep_in_.clear();
+  kept_text_.clear();
 }
 
 }  // namespace tumble

@@ -53,13 +53,17 @@ class UnsavedWork {
   /// To be called when changes were made, undone or continued.
   void note() { stale_ = true; }
   /// To be called after note() where the scene's text with the change is known before the session
-  /// has answered: text() is that one until then.
+  /// has answered: text() is that one until then, and it is kept at once.
   void expect(std::string text);
   /// The same as note() where what was expected does not hold any more, after undo and redo.
   void look_again();
   /// To be called once per picture, with the changes in effect: after note() they are applied to
   /// the file's text.
   void update(Session& session, const std::vector<UndoStepEdits>& undo_steps, double dt);
+  /// Whether edits() are those of all changes.
+  bool known() const { return file_.text.empty() || (!stale_ && !collected_.valid()); }
+  /// The next update() collects the newest changes.
+  void hurry();
   /// Collects the newest changes at once, before another scene is shown. `own_thread`: whether the
   /// session has one.
   void finish(Session& session, const std::vector<UndoStepEdits>& undo_steps, bool own_thread);
@@ -83,6 +87,7 @@ class UnsavedWork {
 
  private:
   using Files = std::vector<std::filesystem::path>;
+  void ask(Session& session, const std::vector<UndoStepEdits>& undo_steps);
   void take(std::vector<SceneEdit> edits);
   std::optional<std::string> text_with(const std::string& text,
                                        const std::vector<SceneEdit>& edits) const;
@@ -101,7 +106,9 @@ class UnsavedWork {
   std::map<std::filesystem::path, ProcessLock> held_;
   SceneFile file_;
   std::string text_;
+  std::string kept_text_;                ///< what is in `keep_in_`; "": nothing
   std::optional<std::string> expected_;  ///< the text, before the newest change was collected
+  bool expected_asked_ = false;          ///< the newest question was sent after that change
   std::vector<SceneEdit> edits_;
   bool stale_ = false;  ///< the changes are not those collected last
   double since_ = 0;    ///< time since the last collection [s]

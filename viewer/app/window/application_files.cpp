@@ -172,17 +172,21 @@ void Application::look_at_files(double dt) {
   // Closed by its button, or by a click beside it.
   if (!ui_.shows(PanelId::question)) question_.decline(ui_);
   undo_steps_.unsaved().update(session(), undo_steps_.edits().file_edits(), dt);
-  const auto now = scene_file_.changed_by_others(dt);
+  const bool changed = scene_file_.changed_by_others(dt).has_value();
   if (scene_file_.taken_away())
     ui_.toast(ToastKind::warning, "The scene's file is gone",
               {scene_.file.path.string(), fmt::format("What is shown stays: {} writes it anew.",
                                                       shortcut_of(Action::save_scene))});
-  if (!now || recording()) return;
+  if (!changed) return;
+  // The newest change here is to be done to the new text too, when the session has told of it.
+  if (!undo_steps_.unsaved().known()) return undo_steps_.unsaved().hurry();
+  const std::string now = scene_file_.take_changed_by_others();
+  if (recording()) return;
   OpenRequest wanted = scene_.request;
   wanted.text.reset();
   if (undo_steps_.unsaved().any()) {
     std::vector<SceneEdit> edits = undo_steps_.unsaved().edits();
-    auto both = save_edits(*now, scene_.file.path.string(), edits);
+    auto both = save_edits(now, scene_.file.path.string(), edits);
     if (!both || scene_.request.text)
       return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
                        {"What was changed here does not fit into it, and is kept: saving replaces "
@@ -194,7 +198,7 @@ void Application::look_at_files(double dt) {
   cause.tick = world_.frame().tick;
   OpenRequest start = wanted;
   start.text.reset();
-  cause.undo_steps = undo_steps_as_choices(start, *now);
+  cause.undo_steps = undo_steps_as_choices(start, now);
   cause.undo_steps_lost = cause.undo_steps.size() < undo_steps_.edits().undo_steps().size();
   open_for(std::move(cause), std::move(wanted));
 }

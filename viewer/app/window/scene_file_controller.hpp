@@ -15,6 +15,7 @@ class SceneFileController {
   void open(const SceneFile& file) {
     saver_.open(file);
     watch_.open(file.read_from, file.on_disk);
+    others_.reset();
   }
   /// Prepares a preview of what saving would write: see SceneSaver.
   void prepare(Session& session, std::vector<UndoStepEdits> undo_steps,
@@ -38,11 +39,16 @@ class SceneFileController {
     if (name.empty()) return Error{ErrorCode::invalid_argument, "a name is missing", {}, {}};
     if (Status done = saver_.write(name); !done) return done;
     watch_.open(file().pack.empty() ? file().path : std::filesystem::path(), file().on_disk);
+    others_.reset();
     return {};
   }
   const SceneFile& file() const { return saver_.file(); }
-  /// New text written by another program, once.
-  std::optional<std::string> changed_by_others(double dt) { return watch_.look(dt); }
+  /// New text written by another program; none: there is none, or it was taken.
+  const std::optional<std::string>& changed_by_others(double dt) {
+    if (auto text = watch_.look(dt)) others_ = std::move(text);
+    return others_;
+  }
+  std::string take_changed_by_others() { return *std::exchange(others_, std::nullopt); }
   /// Whether another program has removed the file, once.
   bool taken_away() { return watch_.take_gone(); }
 
@@ -50,6 +56,7 @@ class SceneFileController {
   SceneSaver saver_;
   bool named_ = false;
   FileWatch watch_;
+  std::optional<std::string> others_;  ///< written by another program, and not taken yet
 };
 
 }  // namespace tumble
