@@ -79,7 +79,7 @@ TEST_CASE("what strikes is judged by the gravity that is usual, where it follows
     wall.type = BodyType::fixed;
     w.add(wall);
     BodyDef ball = named_ball("ball", {1.05, 0, 0}, 1);
-    ball.v = Vec3(-0.1, 0, 0);
+    ball.velocity = Vec3(-0.1, 0, 0);
     w.add(ball);
     Watched watched(w);
     watched.run(w, 60);
