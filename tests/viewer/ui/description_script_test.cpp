@@ -724,7 +724,7 @@ const std::string cam_and_ball = R"x(  "bodies": {
     "ground": { "type": "static", "shape": { "type": "half_space" }, "material": "wood" },
     "cam": {
       "type": "kinematic", "shape": { "type": "sphere", "radius": 0.5 }, "position": [0, 2, 0],
-      "course": { "x": "= 1 + 0.5*sin(2*t)", "angle": "= 3*t" }
+      "course": { "x": "= 1 + 0.5*sin(2*t)", "angle_deg": "= 170*t" }
     },
     "ball": { "shape": { "type": "sphere", "radius": 0.5 }, "position": [3, 2, 0], "starts_asleep": true }
   },
