@@ -75,8 +75,14 @@ struct Apply {
     const BodyDef& known = *s.body_defs[c.id.index];
     const Pose before = old->body_frame();
     const bool same_course = def.course == known.course;
-    // World::body_def() gives the pose at which a course begins: the body is where that has led.
-    if (def.course && same_course && alike(def.pose, known.pose)) def.pose = before;
+    // What has woken it since it was made, as forces do, has woken the changed one too.
+    const bool may_sleep = s.tick == 0 && (old->asleep || !known.starts_asleep);
+    // World::body_def() gives the pose at which a course begins: the body is where that has led,
+    // and stays there or as it has turned in what was not changed.
+    if (def.course && same_course) {
+      if (def.pose.x == known.pose.x) def.pose.x = before.x;
+      if (def.pose.q.coeffs() == known.pose.q.coeffs()) def.pose.q = before.q;
+    }
     auto body = make_body(def, s.shape_factory());
     if (!body) return body.error();
     forget_contacts(c.id);
@@ -92,7 +98,7 @@ struct Apply {
     if (!same_course) begin_course(s, c.id.index);
     // Before the first tick a body begins as one that is created; later it has begun already, and
     // what is changed is awake.
-    old->asleep = old->asleep && s.tick == 0;
+    old->asleep = old->asleep && may_sleep;
     note_asleep(*old);
     for (const JointId joint : s.joints.at_body(c.id)) {
       const JointDef def = s.joints.defs[joint.index];

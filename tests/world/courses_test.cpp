@@ -409,3 +409,50 @@ TEST_CASE(
   changed->run(0.5);
   CHECK((*changed)->frame()->body(1).pose.x.y() < 2.5);
 }
+
+TEST_CASE("a body on a course that is put elsewhere stays turned as it was, and the other way") {
+  TestWorld w(weightless("realtime"));
+  BodyCourse course;
+  course.x[0] = formula("1 + sin(2*t)");
+  course.angle = formula("3*t");
+  const BodyId id = w.add(carried({0, 1, 0}, course));
+  w.run(0.5);
+  const Pose then = w.body(id).body_frame();
+  const auto set = [&](auto what) {
+    BodyDef def = *w->body_def(id);
+    what(def);
+    REQUIRE(w->set_body(id, def).ok());
+    w.apply();
+  };
+  const Bytes saved = w->save();
+  set([](BodyDef& d) { d.pose.x = Vec3(0, 5, 0); });
+  CHECK(w.body(id).body_frame().x == Vec3(0, 5, 0));
+  CHECK(w.body(id).body_frame().q.angularDistance(then.q) < 1e-12);
+  REQUIRE(w->load(saved).ok());
+  set([](BodyDef& d) { d.pose.q = Quat(axis_angle(Vec3::UnitX(), 1)); });
+  CHECK((w.body(id).body_frame().x - then.x).norm() < 1e-12);
+}
+
+TEST_CASE(
+    "a sleeping body that a force has woken is awake when it is changed before the first tick") {
+  const auto made = [](double mass) {
+    auto w = std::make_unique<TestWorld>();
+    BodyDef def = TestWorld::box_def({0, 3, 0});
+    def.starts_asleep = true;
+    def.mass = mass;
+    w->add(def);
+    QuadraticDragDef wind;
+    wind.wind = Vec3(1, 0, 0);
+    REQUIRE((*w)->create_force(wind).ok());
+    w->apply();
+    return w;
+  };
+  const auto expected = made(2), changed = made(1);
+  const BodyId id = (*changed)->frame()->body(0).id;
+  BodyDef def = *(*changed)->body_def(id);
+  def.mass = 2;
+  REQUIRE((*changed)->set_body(id, def).ok());
+  changed->apply();
+  CHECK_FALSE(changed->body(id).asleep);
+  CHECK((*changed)->state_hash() == (*expected)->state_hash());
+}

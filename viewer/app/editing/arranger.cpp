@@ -8,25 +8,29 @@ namespace tumble {
 namespace {
 
 using Bodies = std::vector<BodyId>;
-using Start = std::vector<std::pair<BodyId, BodyDef>>;
+using Start = std::vector<std::tuple<BodyId, BodyDef, Pose>>;
 
 /// Runs on the simulation thread.
 void displace(World& world, const Bodies& bodies, Start& start, const Displacement& way, bool held,
               const UndoStepEdits& edits, const Refusal& refusal) {
   if (start.empty())
     for (const BodyId id : bodies)
-      if (auto def = world.body_def(id)) start.emplace_back(id, *std::move(def));
+      if (auto def = world.body_def(id))
+        start.emplace_back(id, *std::move(def), world.body(id)->body_frame());
   // All bodies are changed, or none.
-  Start moved;
+  std::vector<std::pair<BodyId, BodyDef>> moved;
   std::vector<SceneEdit> changes;
-  for (const auto& [id, before] : start) {
-    auto after = displaced(before, way);
-    if (!after) return refusal.say(after.error());
-    changes.push_back(ChangedBody{before.name, before, *after});
-    after->starts_asleep = false;
-    if (held && after->type == BodyType::dynamic)
-      after->velocity = after->angular_velocity = Vec3::Zero();
-    moved.emplace_back(id, *std::move(after));
+  for (const auto& [id, known, now] : start) {
+    BodyDef standing = known;
+    standing.pose = now;
+    auto wanted = displaced(standing, way);
+    if (!wanted) return refusal.say(wanted.error());
+    ChangedBody change = changed_at(known, now, *std::move(wanted), world.tick() > 0);
+    BodyDef after = change.after;
+    changes.push_back(std::move(change));
+    if (held && after.type == BodyType::dynamic)
+      after.velocity = after.angular_velocity = Vec3::Zero();
+    moved.emplace_back(id, std::move(after));
   }
   for (auto& [id, def] : moved)
     if (const Status done = world.set_body(id, std::move(def)); !done)

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace tumble {
@@ -54,8 +55,9 @@ class Arranger {
                                     double x, double y, bool snap,
                                     const std::optional<Pick>& hit) const;
 
-  /// The bodies' definitions at the begin of the drag; filled and read on the simulation thread.
-  using Start = std::vector<std::pair<BodyId, BodyDef>>;
+  /// The bodies' definitions and poses at the begin of the drag; filled and read on the simulation
+  /// thread.
+  using Start = std::vector<std::tuple<BodyId, BodyDef, Pose>>;
 
   Handles handles_;
   std::vector<BodyId> bodies_;

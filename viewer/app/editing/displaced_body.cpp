@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,6 +76,15 @@ int nearest_axis(const Pose& frame, const Vec3& axis_world) {
   return best;
 }
 
+/// The pose at which a course begins that has led from the pose `begin` to `now`, where it is to
+/// lead to `wanted` instead.
+Pose begin_moved(const Pose& begin, const Pose& now, const Pose& wanted) {
+  Pose out = begin;
+  if (!(wanted.x == now.x)) out.x += wanted.x - now.x;
+  if (!(wanted.q.coeffs() == now.q.coeffs())) out.q = begin.q * now.q.conjugate() * wanted.q;
+  return out;
+}
+
 }  // namespace
 
 Result<BodyDef> displaced(const BodyDef& def, const Displacement& way) {
@@ -109,6 +120,26 @@ Result<BodyDef> displaced(const BodyDef& def, const Displacement& way) {
   if (out.inertia) *out.inertia *= way.scale * way.scale;
   if (out.products) *out.products *= way.scale * way.scale;
   if (out.centre) *out.centre *= way.scale;
+  return out;
+}
+
+ChangedBody changed_at(const BodyDef& known, const Pose& now, BodyDef wanted, bool begun) {
+  ChangedBody out{known.name, known, std::move(wanted), {}};
+  BodyDef& after = out.after;
+  if (!known.course || after.course != known.course) return out;
+  const bool stays = after.pose.x == now.x && after.pose.q.coeffs() == now.q.coeffs() &&
+                     after.velocity == known.velocity &&
+                     after.angular_velocity == known.angular_velocity;
+  if (stays) {
+    after.pose = known.pose;
+  } else if (begun) {
+    out.before.pose = now;
+    after.course = nullptr;
+    out.written = {{"course", std::nullopt}};
+  } else {
+    after.pose = begin_moved(known.pose, now, after.pose);
+    after.course = std::make_shared<const BodyCourse>(*known.course);  // which begins anew
+  }
   return out;
 }
 

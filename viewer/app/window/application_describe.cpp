@@ -223,6 +223,8 @@ bool Application::describe_body_live(const std::string& before, const std::strin
   if (!was || !is) return false;
   const bool at_start = !begin_alike(*was, *is) || key == "course";
   if (at_start && !(stands_at_start() && begins_alone(old.scene, before, name))) return false;
+  // In the scene's own world a force may wake what it begins to pull at.
+  if (was->starts_asleep != is->starts_asleep && !old.scene.forces.items.empty()) return false;
   const std::vector<WrittenKey> written = written_key(after, name, key);
   if (!says_same(before, scene_.file.path, ChangedBody{name, *was, *is, written}, after))
     return false;

@@ -1,5 +1,6 @@
 // The user's changes in the world, and undo.
 #include "engine/world/world.hpp"
+#include "viewer/app/editing/displaced_body.hpp"
 #include "viewer/app/editing/mesh_cure.hpp"
 #include "viewer/app/verify/differences.hpp"
 #include "viewer/app/window/application.hpp"
@@ -15,6 +16,32 @@ namespace {
 
 /// Distance of a copy from its original, over the width of the original [-].
 constexpr double copy_distance = 1.1;
+
+void put_written(std::vector<WrittenKey>& all, const WrittenKey& one) {
+  const auto known = std::ranges::find(all, one.key, &WrittenKey::key);
+  known == all.end() ? all.push_back(one) : void(*known = one);
+}
+
+/// What an edit does to a body that has this definition, and stands at the pose `now`.
+ChangedBody change_by(const EditBody& edit, const BodyDef& known, const Pose& now, bool begun) {
+  BodyDef wanted = known;
+  if (!edit.at_start) wanted.pose = now;
+  edit.change(wanted);
+  ChangedBody out = edit.at_start ? ChangedBody{known.name, known, std::move(wanted)}
+                                  : changed_at(known, now, std::move(wanted), begun);
+  for (const WrittenKey& key : edit.written) put_written(out.written, key);
+  return out;
+}
+
+/// Adds to what a gesture has changed already what it changes now by the same edit.
+void go_on_with(ChangedBody& change, const EditBody& edit, const ChangedBody& now) {
+  edit.change(change.after);
+  if (now.before.course) {  // its pose is that at which the course begins
+    change.after.pose = now.after.pose;
+    change.after.course = now.after.course;
+  }
+  for (const WrittenKey& key : now.written) put_written(change.written, key);
+}
 
 }  // namespace
 
@@ -227,13 +254,13 @@ void Application::edit_body(const EditBody& edit) {
                           "the run has begun meanwhile: change it once more, and it begins anew",
                           {},
                           {}});
-    BodyDef after = *before;
-    edit.change(after);
-    if (const Status done = world.set_body(edit.id, after); !done) return refusal.say(done.error());
+    ChangedBody now = change_by(edit, *before, world.body(edit.id)->body_frame(), world.tick() > 0);
+    if (const Status done = world.set_body(edit.id, now.after); !done)
+      return refusal.say(done.error());
     if (edits->empty())
-      edits->push_back(ChangedBody{before->name, *before, after, edit.written});
+      edits->push_back(std::move(now));
     else if (auto* change = std::get_if<ChangedBody>(&edits->front()))
-      edit.change(change->after);
+      go_on_with(*change, edit, now);
   });
 }
 
