@@ -430,6 +430,8 @@ double hit_before_motion(const SolverContext& c, const SolverIsland& island, dou
   const auto gained = [&](uint32_t body) { return gained_velocity(c, island, body, island.kick); };
   for_points(island, [&](const ContactRow& row, uint32_t i, double gap, double approach) {
     const PointRow& p = island.points[i];
+    // What bounces is left to restitution, which spreads it at the end of the tick.
+    if (p.bounce > 0) return;
     const BodyVelocity a = gained(row.a), b = gained(row.b);
     const double by_forces = row.n.dot(b.v + b.omega.cross(p.rb) - a.v - a.omega.cross(p.ra));
     const double explained = tolerances::limit_rest_speed + 2 * std::fabs(by_forces);
