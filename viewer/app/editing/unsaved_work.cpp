@@ -261,8 +261,7 @@ void UnsavedWork::keep() {
   fs::create_directories(folder_, none);
   if (keep_in_.empty()) claim_file();
   // A full disk must not stop the work; saving will report it.
-  if (!keep_in_.empty() && write_file(keep_in_, std::string_view(text())).ok())
-    kept_text_ = text();
+  if (!keep_in_.empty() && write_file(keep_in_, std::string_view(text())).ok()) kept_text_ = text();
 }
 
 void UnsavedWork::saved(const SceneFile& file) {

@@ -452,8 +452,7 @@ void Application::begin_comparison(const WorldChoice& wanted) {
   of_file.settings = settings_.of_scene();
   const std::vector<WorldDifference> different = differences(of_file, wanted);
   const auto is_number = [](const WorldDifference& d) { return d.path.starts_with("parameters."); };
-  if (std::ranges::none_of(different, is_number))
-    return second_.begin(session(), wanted, trail());
+  if (std::ranges::none_of(different, is_number)) return second_.begin(session(), wanted, trail());
   if (recording_forbids("comparing from the start")) return;
   undo_steps_.finish(session(), options_.own_thread);
   OpenRequest request = scene_.request;
