@@ -81,6 +81,7 @@ TEST_CASE("numbers of shapes, materials and joints are pinned too, and end with 
   REQUIRE(b.stands("pinned.ball.shape.0.radius"));
   REQUIRE(b.stands("pinned.ball.shape.0.friction"));
   REQUIRE(b.stands("pinned.axle.angle.target"));
+  const uint64_t before = b.hash();
   b.play(
       "drag pinned.ball.shape.0.radius 10 0\ndrag pinned.ball.shape.0.friction 10 0\n"
       "drag pinned.axle.angle.target 90 0\nwait 3");
@@ -89,7 +90,7 @@ TEST_CASE("numbers of shapes, materials and joints are pinned too, and end with 
   CHECK(b.target() > 2.05);
   CHECK(b.def("wheel").shapes[0].material.friction == 0.5);
   for (int i = 0; i < 3; ++i) b.play("key Ctrl+Z\nwait 2");
-  CHECK(b.hash() == b.rig.app->session().world().state_hash());
+  CHECK(b.hash() == before);
   CHECK(b.target() == 2);
   CHECK(b.def("ball").shapes[0].shape.radius == 0.5);
   b.rig.app->open("second");
