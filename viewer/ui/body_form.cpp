@@ -333,22 +333,24 @@ void draw_body_form(PanelContext& context, const BodyFrame& body, const BodyDef&
                palette::faint);
 }
 
-void draw_pinned_body_value(PanelContext& context, const Pin& pin, const std::string& mark,
+bool draw_pinned_body_value(PanelContext& context, const Pin& pin, const std::string& mark,
                             const BodyFrame& body, const BodyDef& def) {
   const auto slot = find_slot(*context.model.frame, body.id);
-  if (!slot) return;
+  if (!slot) return false;
   for (size_t i = 0; i < def.shapes.size(); ++i) {
     const PinOwner place = place_of_shape(def, i);
     if (!pin.value.starts_with(place.prefix)) continue;
     MaterialWidgets widgets(context, mark + "." + place.prefix.substr(0, place.prefix.size() - 1));
     widgets.let_pin(place);
     widgets.draw_only(pin);
-    return edit_shape_values(context, body.id, def, i, widgets);
+    edit_shape_values(context, body.id, def, i, widgets);
+    return widgets.drawn;
   }
   BodyWidgets widgets(context, mark, std::nullopt, def);
   widgets.draw_only(pin);
   edit_body_values(context, body.id, def,
                    shown_description(body, context.model.frame->info(*slot), def), widgets);
+  return widgets.drawn;
 }
 
 }  // namespace tumble

@@ -32,6 +32,7 @@ struct Shown {
   std::string prefix;
   std::string body;           ///< through which it is shown
   const Pin* only = nullptr;  ///< null: all values are drawn
+  bool* drawn = nullptr;      ///< set where one is drawn
 
   double unit() const { return coordinate.angle ? degree : 1; }
   std::string_view value_unit() const { return coordinate.angle ? "deg" : "m"; }
@@ -57,6 +58,7 @@ void number(const Shown& s, double shown_now, const Parameter& p, double unit,
   if (s.only) widgets.draw_only(*s.only);
   double value = shown_now;
   widgets.field(value, p);
+  if (widgets.drawn && s.drawn) *s.drawn = true;
   if (widgets.changed)
     s.ask(widgets.edited, [set, value, unit](CoordinateDrive& d) { set(d, unit * value); });
 }
@@ -290,17 +292,20 @@ void draw_joint_form(PanelContext& context) {
   }
 }
 
-void draw_pinned_joint_value(PanelContext& context, const Pin& pin, const std::string& mark,
+bool draw_pinned_joint_value(PanelContext& context, const Pin& pin, const std::string& mark,
                              const SelectedJoint& joint) {
   const JointFrame* now = frame_of(*context.model.frame, joint.id);
-  if (!now) return;
+  if (!now) return false;
+  bool drawn = false;
   const JointKindEntry& kind = entry_of(joint.def.kind);
   for (size_t k = 0; k < kind.coordinates.size(); ++k) {
     const std::string name(kind.coordinates[k].name);
     if (pin.value.starts_with(name + "."))
-      draw_coordinate({context, joint, k, kind.coordinates[k], mark + "." + name, pin.body, &pin},
-                      now->coordinates[k]);
+      draw_coordinate(
+          {context, joint, k, kind.coordinates[k], mark + "." + name, pin.body, &pin, &drawn},
+          now->coordinates[k]);
   }
+  return drawn;
 }
 
 }  // namespace tumble

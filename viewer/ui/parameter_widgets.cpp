@@ -59,6 +59,13 @@ std::string label_of(std::string_view name) {
   return label;
 }
 
+std::string label_of_pin(const Pin& pin) {
+  const size_t point = pin.value.rfind('.');
+  std::string out = (pin.joint.empty() ? pin.body : pin.joint) + ": ";
+  if (point == std::string::npos) return out + label_of(pin.value);
+  return out + label_of(pin.value.substr(0, point)) + " " + label_of(pin.value.substr(point + 1));
+}
+
 std::optional<std::string> typed_text(PanelContext& context, const std::string& mark,
                                       const std::string& now, float width) {
   TypedValue& typing = context.state.typing;
@@ -322,7 +329,7 @@ void ParameterWidgets::pin_button(const Parameter& p) {
   if (ImGui::InvisibleButton(mark.c_str(), {pin_width, height})) context_.state.pins.flip(pin);
   const bool near = ImGui::IsItemHovered();
   context_.host.mark(mark);
-  tooltip_with_key(context_, in ? "take it off Settings" : "pin: a slider for it in Settings", {});
+  tooltip_with_key(context_, in ? "take it off Settings" : "pin: it stands in Settings too", {});
   const ImVec2 c(at.x + 0.5f * pin_width, at.y + 0.5f * height);
   const uint32_t colour = near ? palette::accent
                           : in ? palette::dim
@@ -365,9 +372,8 @@ void ParameterWidgets::note_change(const Parameter& p) {
 }
 
 void ParameterWidgets::begin(const Parameter& p, bool own_line, bool number) {
-  std::string label = label_of(p.name);
-  if (only_)
-    label = fmt::format("{}: {}", only_->joint.empty() ? only_->body : only_->joint, label);
+  drawn = true;
+  std::string label = only_ ? label_of_pin(*only_) : label_of(p.name);
   if (own_line && !p.unit.empty()) label += fmt::format(" [{}]", unit_words(p.unit));
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
   const bool pinned = number && place_;

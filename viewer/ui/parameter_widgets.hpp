@@ -18,6 +18,8 @@ struct TickRate;
 /// A parameter's name as text: "contact_damping_ratio" gives "contact damping ratio". The unit is
 /// shown separately.
 std::string label_of(std::string_view name);
+/// A pinned value as text with what it belongs to: "ball: shape 0 friction".
+std::string label_of_pin(const Pin& pin);
 /// The name of an algorithm or a kind as text: "conservative advancement", "GJK".
 std::string words_of(std::string_view name);
 /// A unit as text: "m/s2" gives "m/s²".
@@ -42,9 +44,10 @@ class ParameterWidgets {
       : context_(context), prefix_(std::move(prefix)) {}
   /// Each number gets a button that pins it.
   void let_pin(PinOwner place) { place_ = std::move(place); }
-  /// Draws only this value of that place, as a slider under a line that says whose it is.
+  /// Draws only this value of that place, under a line that says whose it is.
   void draw_only(const Pin& pin) { only_ = pin; }
   bool changed = false;  ///< a value was edited
+  bool drawn = false;    ///< a value was drawn
   std::string edited;    ///< the name of that value for display
 
   void field(double& value, const Parameter& p);

@@ -1,6 +1,7 @@
 // Values of the inspector that are pinned, and pulled in Settings whatever is selected. Reference:
 // the world's own definitions.
 #include "tests/viewer/ui/laboratory.hpp"
+#include "viewer/ui/parameter_widgets.hpp"
 
 using namespace tumble;
 using namespace tumble::test;
@@ -107,4 +108,60 @@ TEST_CASE("the ends of a slider are as far as twice the value, within what it ma
   CHECK(slider_range(-3, -1e9, 1e9).least == -6);
   CHECK(slider_range(-3, -1e9, 1e9).most == 6);
   CHECK(slider_range(0, -1e9, 1e9).most == 1);
+}
+
+TEST_CASE("a pin follows its body and its joint to another name") {
+  PinnedLaboratory b;
+  b.play("click inspector.mass.pin\nwait 2");
+  b.select("wheel");
+  b.play(
+      "click joint.0\nwait 3\nclick joint.0.angle.target.pin\nwait 2\nclick bar.settings\nwait 3");
+  b.select("ball");
+  b.rig.app->ask(EditBody{b.world().find_body("ball"), "Rename ball",
+                          [](BodyDef& def) { def.name = "marble"; }});
+  b.play("wait 6");
+  REQUIRE_FALSE(b.world().find_body("marble").is_null());
+  CHECK(b.stands("pinned.marble.mass"));
+  CHECK_FALSE(b.stands("pinned.ball.off"));
+  b.rig.app->ask(
+      EditDescription{ScenePath{} / "joints" / "axle", EditDescription::How::rename, "hub"});
+  b.play("wait 6");
+  REQUIRE_FALSE(b.world().find_joint("hub").is_null());
+  CHECK(b.stands("pinned.hub.angle.target"));
+  CHECK_FALSE(b.stands("pinned.axle.off"));
+  CHECK(renamed_item("brick[3]", "brick", "stone") == "stone[3]");
+  CHECK(renamed_item("bricks", "brick", "stone") == "bricks");
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("a pinned value that its owner has no more says so, and is taken off there") {
+  PinnedLaboratory b;
+  b.play("click inspector.mass.pin\nwait 2");
+  b.select("wheel");
+  b.play(
+      "click joint.0\nwait 3\nclick joint.0.angle.target.pin\nwait 2\nclick bar.settings\nwait 3");
+  REQUIRE(b.stands("pinned.axle.angle.target"));
+  b.rig.app->ask(EditJoint{b.world().find_joint("axle"), "Change motor of axle",
+                           [](JointDef& def) { def.drives[0].motor = {}; }});
+  b.play("wait 5");
+  CHECK_FALSE(b.stands("pinned.axle.angle.target"));
+  REQUIRE(b.stands("pinned.axle.off"));
+  b.play("click pinned.axle.off\nwait 3");
+  CHECK_FALSE(b.stands("pinned.axle.off"));
+  CHECK(b.rig.app->ui_state().pins.all.size() == 1);
+  check_no_faults(*b.device);
+}
+
+TEST_CASE("a pin says which shape it is of, and that of a joint is one through both its bodies") {
+  CHECK(label_of_pin({"ball", {}, "mass"}) == "ball: mass");
+  CHECK(label_of_pin({"ball", {}, "shape.1.friction"}) == "ball: shape 1 friction");
+  CHECK(label_of_pin({"ball", {}, "shape.0.euler_deg"}) == "ball: shape 0 turned about x, y, z");
+  CHECK(label_of_pin({"wheel", "axle", "angle.target"}) == "axle: angle target");
+  Pins pins;
+  pins.flip({"wheel", "axle", "angle.target"});
+  CHECK(pins.has({"frame", "axle", "angle.target"}));
+  pins.flip({"frame", "axle", "angle.target"});
+  CHECK(pins.all.empty());
+  pins.flip({"ball", {}, "mass"});
+  CHECK_FALSE(pins.has({"wheel", {}, "mass"}));
 }

@@ -319,7 +319,11 @@ class Application {
   std::vector<InputEvent> early_text_;  ///< typed before the search field had the keyboard
   bool searched_ = false;               ///< a search for a quantity was active
   Thumbnails thumbnails_;
-  std::optional<std::pair<std::string, std::string>> renaming_;  ///< a body, while that is opened
+  /// An item of a list of the scene that gets another name.
+  struct Renaming {
+    std::string list, from, to;
+  };
+  std::optional<Renaming> renaming_;          ///< while the scene with that name is opened
   std::vector<std::string> described_along_;  ///< went with what was left out of the description
   bool described_camera_ = false;             ///< a camera was changed, which is to be seen
   bool describing_ = false;                   ///< what opens next is a changed description

@@ -169,9 +169,8 @@ void Application::edit_description(const EditDescription& edit) {
   keep_up_choices(after.overrides, edit);
   after.text = std::move(done->text);
   described_camera_ = !edit.path.empty() && edit.path[0].key == "cameras";
-  if (edit.how == EditDescription::How::rename && edit.path.size() == 2 &&
-      edit.path[0].key == "bodies")
-    renaming_ = {edit.path[1].key, edit.value};
+  if (edit.how == EditDescription::How::rename && edit.path.size() == 2)
+    renaming_ = Renaming{edit.path[0].key, edit.path[1].key, edit.value};
   described_along_.clear();
   for (const TakenAlong& one : done->along) described_along_.push_back(one.words());
   description_.keep(edit, {}, true, undo_steps_.edits().undo_steps().size());

@@ -61,7 +61,9 @@ Application::LookedAt Application::looked_at_in(const OpenedScene& scene) const 
   LookedAt out;
   const World& world = *scene.world;
   const auto name_there = [&](const std::string& name) {
-    return renaming_ && renaming_->first == name ? renaming_->second : name;
+    return renaming_ && renaming_->list == "bodies"
+               ? renamed_item(name, renaming_->from, renaming_->to)
+               : name;
   };
   for (const BodyId id : selection_.all())
     if (const BodyId there = world.find_body(name_there(name_of(id))); !there.is_null())
@@ -138,6 +140,7 @@ void Application::finish_opening(SceneOpening::Opened done) {
   const auto moment = same_world ? session().keep() : nullptr;
   if (!same) description_.forget();
   description_.begin_anew();
+  if (renaming_) ui_.pins.rename(renaming_->list, renaming_->from, renaming_->to);
   renaming_.reset();
   const SceneCamera camera = camera_;
   // A new scene has nothing to simulate: it stands still from its first tick on.
@@ -345,7 +348,7 @@ void Application::rename_body(const std::string& name, const std::string& to) {
     return ui_.toast(ToastKind::warning, fmt::format("{} cannot be called {}", name, to),
                      lines_of(text.error().text()));
   after.text = std::move(*text);
-  renaming_ = {name, to};
+  renaming_ = Renaming{"bodies", name, to};
   choose(std::move(after), fmt::format("Rename {} to {}", name, to), world_.frame().tick);
 }
 

@@ -86,9 +86,9 @@ void draw_trails(PanelContext& context) {
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   context.host.mark(name);
   if (ImGui::IsItemActive()) pulled[name] = seconds;
-  if (!ImGui::IsItemDeactivatedAfterEdit()) return;
+  if (!ImGui::IsItemDeactivated()) return;
   pulled.erase(name);
-  context.state.trail = seconds;
+  if (ImGui::IsItemDeactivatedAfterEdit()) context.state.trail = seconds;
 }
 
 /// Theme and size of the panels themselves.

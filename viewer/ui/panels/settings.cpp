@@ -31,12 +31,10 @@ void draw_parameters(PanelContext& context) {
   ImGui::Dummy(ImVec2(0, 2));
 }
 
-/// A pinned value of something that is not there now: deleted, or not yet made in this run.
+/// A pinned value that is not there now: of what is deleted or not yet made in this run, or one
+/// that its owner has no more.
 void draw_missing(PanelContext& context, const Pin& pin, const std::string& mark) {
-  small_text(context,
-             fmt::format("{}: {} is not there", pin.joint.empty() ? pin.body : pin.joint,
-                         label_of(pin.value)),
-             palette::faint);
+  small_text(context, label_of_pin(pin) + " is not there", palette::faint);
   ImGui::SameLine();
   if (icon_button(context, mark + ".off", Icon::close, "take it off", {}, 16))
     context.state.pins.flip(pin);
@@ -59,13 +57,15 @@ void draw_pins(PanelContext& context) {
     if (slot && body->second.joints)
       for (const SelectedJoint& one : *body->second.joints)
         if (one.def.name == pin.joint && !pin.joint.empty()) joint = &one;
-    if (!slot || (!pin.joint.empty() && body->second.joints && !joint))
-      draw_missing(context, pin, mark);
-    else if (joint)
-      draw_pinned_joint_value(context, pin, mark, *joint);
-    else if (pin.joint.empty() && body->second.def)
-      draw_pinned_body_value(context, pin, mark, context.model.frame->body(*slot),
-                             *body->second.def);
+    const auto draw = [&] {
+      if (!slot) return false;
+      const bool asked = pin.joint.empty() ? !body->second.def : !body->second.joints;
+      if (asked) return true;  // it is known soon
+      if (!pin.joint.empty()) return joint && draw_pinned_joint_value(context, pin, mark, *joint);
+      return draw_pinned_body_value(context, pin, mark, context.model.frame->body(*slot),
+                                    *body->second.def);
+    };
+    if (!draw()) draw_missing(context, pin, mark);
     ImGui::PopID();
   }
   ImGui::Dummy(ImVec2(0, 2));
