@@ -1,7 +1,7 @@
 #pragma once
 #include "engine/collision/manifold.hpp"
 
-#include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 
@@ -17,7 +17,7 @@ class ManifoldBuilder {
   ManifoldBuilder& operator=(const ManifoldBuilder&) = delete;
 
   void add(const Vec3& x, double gap, uint64_t feature) {
-    if (count_ < capacity) std::construct_at(&points_[count_++], x, gap, feature);
+    if (count_ < capacity) ::new (&points_[count_++]) ManifoldPoint{x, gap, feature};
   }
   int count() const { return count_; }
   std::span<ManifoldPoint> points() { return {points_, size_t(count_)}; }

@@ -68,7 +68,8 @@ void join_near(const std::vector<Vec3>& v, double distance, Groups& groups) {
   std::iota(order.begin(), order.end(), 0u);
   std::vector<Cluster> clusters{{0, order.size(), 0, 0}};
   while (!clusters.empty()) {
-    const auto [begin, end, axis, compact] = clusters.back();
+    const auto [begin, end, next_axis, compact] = clusters.back();
+    const int axis = next_axis;
     clusters.pop_back();
     if (end - begin < 2) continue;
     const std::span<uint32_t> part(order.data() + begin, end - begin);

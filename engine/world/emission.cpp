@@ -215,8 +215,9 @@ class ParticleEmission {
     };
     along_life(e, std::max(0.0, s_.time() - own.born), age, own.dies - own.born, at);
     if (b.asleep) return;  // it touches what it touched
-    const auto [first, last] =
-        std::ranges::equal_range(scratch_.body_hits, own.id.index, {}, &BodyHit::slot);
+    const std::vector<BodyHit>& hits = scratch_.body_hits;
+    const auto first = std::ranges::lower_bound(hits, own.id.index, {}, &BodyHit::slot);
+    const auto last = std::ranges::upper_bound(first, hits.end(), own.id.index, {}, &BodyHit::slot);
     const std::vector<BodyId> before = std::exchange(own.touching, {});
     bool dead = false;
     for (auto hit = first; hit != last; ++hit) {
@@ -281,8 +282,8 @@ class ParticleEmission {
       return std::tuple(hit.slot, hit.other, !hit.presses);
     };
     std::ranges::stable_sort(hits, {}, pressing_first);
-    const auto twice = std::ranges::unique(hits, {}, pair);
-    hits.erase(twice.begin(), twice.end());
+    const auto same = [&](const BodyHit& a, const BodyHit& b) { return pair(a) == pair(b); };
+    hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
   }
 
   void answer_calls() {

@@ -48,8 +48,8 @@ class Octave {
       const float at_x = of.scale_ * x + middle[0], at_y = of.scale_ * y + middle[1];
       const float i = std::floor(at_x), j = std::floor(at_y);
       const float u = smooth(at_x - i), v = smooth(at_y - j);
-      for (int c = 0; c < 4; ++c) {
-        const int dx = c & 1, dy = c >> 1;
+      for (size_t c = 0; c < 4; ++c) {
+        const int dx = int(c & 1), dy = int(c >> 1);
         weight_[c] = (dx ? u : 1 - u) * (dy ? v : 1 - v);
         const int row = (int(i) + dx - of.low_[0]) * of.count_[1] + int(j) + dy - of.low_[1];
         values_[c] = of.values_.data() + row * of.count_[2];
@@ -61,8 +61,8 @@ class Octave {
       const float w = smooth(at_z - cell);
       const int k = int(cell) - of_.low_[2];
       float sum = 0;
-      for (int c = 0; c < 4; ++c) sum += weight_[c] * (1 - w) * values_[c][k];
-      for (int c = 0; c < 4; ++c) sum += weight_[c] * w * values_[c][k + 1];
+      for (size_t c = 0; c < 4; ++c) sum += weight_[c] * (1 - w) * values_[c][k];
+      for (size_t c = 0; c < 4; ++c) sum += weight_[c] * w * values_[c][k + 1];
       return sum;
     }
 

@@ -213,7 +213,7 @@ void draw_strength(PanelContext& context, const SelectedJoint& joint, size_t ind
   for (const auto& [name, unit, member] :
        {std::tuple("break_force", "N", &JointDef::break_force),
         std::tuple("break_torque", "N m", &JointDef::break_torque)}) {
-    const auto ask = [&, to = member](double bound) {
+    const auto ask = [&, name = name, to = member](double bound) {
       context.ask(EditJoint{joint.id,
                             fmt::format("Change {} of {}", label_of(name), joint.def.name),
                             [to, bound](JointDef& d) { d.*to = bound; }});

@@ -95,8 +95,8 @@ std::vector<Docked> shown_at(Dock dock, const UiState& state) {
     if (panel.dock == dock && state.shows(panel.id))
       out.push_back({&panel, preferred_height(panel, state), state.raised[size_t(panel.id)]});
   // A lesson comes first, with its plots below it.
-  std::ranges::stable_partition(out,
-                                [](const Docked& m) { return m.panel->id == PanelId::lesson; });
+  std::stable_partition(out.begin(), out.end(),
+                        [](const Docked& m) { return m.panel->id == PanelId::lesson; });
   return out;
 }
 

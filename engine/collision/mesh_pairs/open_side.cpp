@@ -192,7 +192,8 @@ void OpenSides::find(const PlacedSurface& S, const PlacedSurface& other, bool co
   for (const TriangleIds& pair : pairs)
     parts_.push_back({{own_.part_of(pair.b), others_.part_of(pair.a)}});
   std::ranges::sort(parts_, {}, &Part::parts);
-  parts_.erase(std::ranges::unique(parts_, {}, &Part::parts).begin(), parts_.end());
+  const auto same = [](const Part& a, const Part& b) { return a.parts == b.parts; };
+  parts_.erase(std::unique(parts_.begin(), parts_.end(), same), parts_.end());
   for (size_t first = 0; first < pairs.size() && !stop_requested();) {
     const uint32_t triangle = pairs[first].a;
     run.clear();

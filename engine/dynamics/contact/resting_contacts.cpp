@@ -3,7 +3,6 @@
 #include "engine/core/disjoint_sets.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 namespace tumble {
@@ -166,7 +165,8 @@ void RestingContacts::add(const ContactKnowledge& settled, std::span<const Rigid
 }
 
 void RestingContacts::go_back() {
-  for (Change& change : undo_ | std::views::reverse) {
+  for (auto at = undo_.rbegin(); at != undo_.rend(); ++at) {
+    Change& change = *at;
     if (change.taken.bodies.empty()) {
       remove(change.index);
       free_.push_back(change.index);

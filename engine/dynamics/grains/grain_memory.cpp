@@ -107,8 +107,8 @@ void GrainMemory::list_beside(const GrainField& grains, std::span<const GrainBod
                               std::span<const GrainBodyRow> held, double hs, size_t first,
                               size_t last, std::vector<Beside>& out) const {
   const auto in_range = [&](const auto& list, auto place) {
-    return std::ranges::subrange(std::ranges::lower_bound(list, first, {}, place),
-                                 std::ranges::lower_bound(list, last, {}, place));
+    const auto begin = std::ranges::lower_bound(list, first, {}, place);
+    return std::span(begin, std::ranges::lower_bound(begin, list.end(), last, {}, place));
   };
   const auto force = [hs](const Vec3& v) {
     return std::array{float(v[0] / hs), float(v[1] / hs), float(v[2] / hs)};

@@ -211,7 +211,10 @@ Result<size_t> NearShapes::hold_back(const GrainTick& tick, GrainField& grains,
                                      std::span<const Vec3> from, double t0, double t1) {
   if (parts_.empty()) return size_t{0};
   const double h = t1 - t0;
-  auto& [who, start, v, core, met] = far_;
+  std::vector<uint32_t>& who = far_.who;
+  std::vector<Vec3>&start = far_.start, &v = far_.v;
+  std::vector<double>& core = far_.core;
+  std::vector<ParticleShapeMeeting>& met = far_.met;
   const auto went_far = [&](size_t i, NothingKept&, std::vector<uint32_t>& out) {
     const double way = (grains.points[i].x - from[i]).norm();
     const double far = tolerances::grain_looks * grains.points[i].radius;

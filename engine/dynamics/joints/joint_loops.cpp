@@ -91,8 +91,7 @@ std::vector<JointLoops> find_loops(std::span<const Joint> joints, std::span<cons
   std::vector<uint32_t> block_of(bodies.size(), no_block);
   for (JointLoops& loops : out) {
     std::ranges::sort(loops.bodies);
-    const auto doubled = std::ranges::unique(loops.bodies);
-    loops.bodies.erase(doubled.begin(), doubled.end());
+    loops.bodies.erase(std::unique(loops.bodies.begin(), loops.bodies.end()), loops.bodies.end());
     for (uint32_t i = 0; i < loops.bodies.size(); ++i) block_of[loops.bodies[i]] = i;
     loops.rows = Articulation({joints}, {loops.joints}, block_of, bodies, loops.bodies.size(),
                               Articulation::Drives::none);

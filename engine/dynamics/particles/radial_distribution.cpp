@@ -100,14 +100,14 @@ class RadialCells {
         for (int64_t k = -1; k <= 1; ++k)
           keys.push_back(around({key[0] + i, key[1] + j, key[2] + k}));
     std::ranges::sort(keys);
-    const auto twice = std::ranges::unique(keys);
-    keys.erase(twice.begin(), twice.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     std::vector<Range> out;
     for (const CellKey& near : keys) out.push_back(cell(near));
     return out;
   }
   Range cell(const CellKey& key) const {
-    const auto [first, last] = std::ranges::equal_range(members_, key, {}, &Member::key);
+    const auto first = std::ranges::lower_bound(members_, key, {}, &Member::key);
+    const auto last = std::ranges::upper_bound(first, members_.end(), key, {}, &Member::key);
     return {size_t(first - members_.begin()), size_t(last - members_.begin())};
   }
 

@@ -97,9 +97,8 @@ void ContinuousStage::time_in_the_way(std::span<const RigidBody> bodies, double 
   std::ranges::sort(in_the_way_, {}, [](const Candidate& c) {
     return std::tuple(c.b.body, c.stop.time, c.a.body, c.a.shape, c.b.shape);
   });
-  const auto rest =
-      std::ranges::unique(in_the_way_, {}, [](const Candidate& c) { return c.b.body; });
-  in_the_way_.erase(rest.begin(), rest.end());
+  const auto same = [](const Candidate& c, const Candidate& d) { return c.b.body == d.b.body; };
+  in_the_way_.erase(std::unique(in_the_way_.begin(), in_the_way_.end(), same), in_the_way_.end());
 }
 
 /// From where the two meet, the body moves as if it were part of the carrier.

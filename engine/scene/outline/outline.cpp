@@ -106,7 +106,7 @@ std::vector<ToldValue> told_of(const Member& what, const JsonNode& object,
   }
   if (!telling.empty()) all = std::move(telling);
   // What something is says more than where it is.
-  std::ranges::stable_partition(all, &ToldValue::choice);
+  std::stable_partition(all.begin(), all.end(), [](const ToldValue& v) { return v.choice; });
   return all;
 }
 

@@ -208,7 +208,7 @@ bool JsonTextEdit::swap_with_next(const Path& item) {
   // A comment would hide what follows it on a line, and stays where not both items end theirs.
   const auto ends_line = [&](const Span& s) { return blank(s.end, line_end(s.end)); };
   if (!ends_line(parts[1]) || !ends_line(parts[3]))
-    for (const size_t k : {1, 3}) parts[k].end = parts[k].begin;
+    for (const size_t k : {size_t{1}, size_t{3}}) parts[k].end = parts[k].begin;
   const auto text = [&](size_t k) {
     return text_.substr(parts[k].begin, parts[k].end - parts[k].begin);
   };

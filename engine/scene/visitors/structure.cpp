@@ -192,6 +192,7 @@ template const StructType& struct_type<SceneDescription>();
 template const StructType& struct_type<RobotsOfScene>();
 template const StructType& struct_type<BodyDescription>();
 template const StructType& struct_type<CopyDescription>();
+template const StructType& struct_type<DrawnDescription>();
 template const StructType& struct_type<DriveDescription>();
 template const StructType& struct_type<EmitterDescription>();
 template const StructType& struct_type<ForceDescription>();

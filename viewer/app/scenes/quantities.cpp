@@ -279,9 +279,9 @@ void learn(std::map<std::string, Id, std::less<>>& names,
            const std::vector<std::pair<std::string_view, Id>>& there) {
   for (const auto& [name, id] : there) {
     if (name.empty()) continue;
-    const auto [known, added] = names.try_emplace(std::string(name), id);
-    const auto is_known = [&](const auto& other) { return other.second == known->second; };
-    if (!added && known->second != id && std::ranges::none_of(there, is_known)) known->second = id;
+    Id& known = names.try_emplace(std::string(name), id).first->second;
+    const auto is_known = [&](const auto& other) { return other.second == known; };
+    if (known != id && std::ranges::none_of(there, is_known)) known = id;
   }
 }
 

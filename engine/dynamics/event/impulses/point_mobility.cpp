@@ -54,7 +54,7 @@ void PointMobility::lay_out(std::span<const std::array<uint32_t, 2>> blocks_of,
     for (const uint32_t at : blocks_of[point])
       if (at != no_block) column.insert(column.end(), points_at[at].begin(), points_at[at].end());
     std::ranges::sort(column);
-    column.erase(std::ranges::unique(column).begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
     charge_work(column.size(), 20);
     if (stop_requested()) column.assign(1, point);
     for (const uint32_t row : column) {

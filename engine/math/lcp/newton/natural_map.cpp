@@ -20,7 +20,7 @@ void set_natural_slope(const ConeUnit& unit, const Triple& z, const Triple& w, U
   const double axial = z[0] - w[0];
   if (!unit.group) return axial > unit.lower && axial < unit.upper ? equation(0) : still(0);
   if (axial <= 0) {
-    for (const size_t r : {0, 1, 2}) still(r);
+    for (size_t r = 0; r < 3; ++r) still(r);
     return;
   }
   equation(0);
