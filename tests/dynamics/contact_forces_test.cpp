@@ -168,7 +168,8 @@ TEST_CASE("contact forces: a pyramid holds more along its diagonal than the cone
       const double pyramid = cone / std::max(std::fabs(along.dot(t1)), std::fabs(along.dot(t2)));
       for (const auto& [name, limit] : {std::pair{std::string_view("circular"), cone},
                                         {std::string_view("pyramid"), pyramid}}) {
-        CAPTURE(name);
+        const auto& shown_name = name;
+        CAPTURE(shown_name);
         CAPTURE(angle_deg);
         t.pull = share * limit * along;
         const Answer found = solve(t, "automatic", name);
@@ -180,7 +181,7 @@ TEST_CASE("contact forces: a pyramid holds more along its diagonal than the cone
 }
 
 TEST_CASE("contact forces: many points without friction, body by body, as by pivots") {
-  for (const uint64_t side : {3, 4, 6})
+  for (const uint64_t side : {3u, 4u, 6u})
     for (uint64_t seed = 1; seed <= 4; ++seed) {
       CAPTURE(side);
       CAPTURE(seed);

@@ -47,7 +47,7 @@ TEST_CASE("under a lighter fluid pressure grows by the weight of both") {
     if (k < ticks / 2) continue;
     pushed -= tank.solver.pushes()[0].impulse[1] / (ticks / 2 * tank.h);
     for (size_t i = 0; i < tank.x.size(); ++i)
-      for (const size_t layer : {0, 1})
+      for (const size_t layer : {0u, 1u})
         if (std::abs(tank.x[i][1] - at[layer]) < s) {
           const double y = tank.x[i][1];
           const double off = 9.81 * (y > between ? 600 * (level - y)
@@ -59,7 +59,7 @@ TEST_CASE("under a lighter fluid pressure grows by the weight of both") {
   CHECK(pushed == doctest::Approx(weight).epsilon(0.005));
   const double whole = 9.81 * (600 * (level - between) + 1000 * between);
   // One fluid in this tank of eight spacings is off by 4.7 % of the pressure at its foot.
-  for (const size_t layer : {0, 1}) CHECK(std::abs(sum[layer] / n[layer]) < 0.05 * whole);
+  for (const size_t layer : {0u, 1u}) CHECK(std::abs(sum[layer] / n[layer]) < 0.05 * whole);
   const std::array<double, 2> mean = heights(tank);
   CHECK(mean[0] == doctest::Approx(0.5 * between).epsilon(0.05));
   CHECK(mean[1] == doctest::Approx(0.5 * (level + between)).epsilon(0.05));

@@ -67,7 +67,8 @@ TEST_CASE("a pile of mixed bodies comes to rest and sleeps, whatever the draw, a
   };
   const Draw draws[] = {{3, {0, 0, 0}}, {8, {0, 0, 0}}, {10, {0, 0, 0}}, {3, {1e4, 0, -1e4}}};
   for (int k = 0; k < scaled(4, 1); ++k) {
-    const auto& [seed, place] = draws[k];
+    const uint64_t seed = draws[k].seed;
+    const Vec3& place = draws[k].place;
     CAPTURE(seed);
     CAPTURE(place.x());
     RigidWorld w;

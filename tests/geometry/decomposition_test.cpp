@@ -309,7 +309,8 @@ TEST_CASE("a decomposition is stopped anywhere, and soon" * doctest::test_suite(
   for (const auto& [name, mesh, bound] :
        {std::tuple{"torus", make_mesh::torus(0.5, 0.2, 24, 12), 0.03},
         {"spiky ball", spiky_ball(3, 1), 0.03}}) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const AabbTree surface(std::make_shared<const TriangleMesh>(mesh));
     const auto decompose = [&, bound = bound](int64_t after) {
       flag.request_after(after);
@@ -341,7 +342,8 @@ TEST_CASE("approximate pieces keep the bound and all of the mesh, with any numbe
         {"spiky ball", spiky_ball(3, 1), 0.15, size_t{64}, 1.1},
         // Hulls of spikes on opposite sides would all hold the middle.
         {"spiky ball, closer", spiky_ball(3, 1), 0.03, size_t{64}, 1.05}}) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     if (test::only_to_run() && bound > 0.1) continue;  // the same ball follows
     const AabbTree tree(std::make_shared<const TriangleMesh>(mesh));
     ApproximateDecompositionOptions options;

@@ -98,7 +98,8 @@ DistanceField field_of(const Hierarchy& surface, double cells) {
 TEST_CASE("nodes of a field are exact, in the band and at the corners of blocks, inside and out") {
   Random random(3);
   for (const auto& [name, mesh] : solids()) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const AabbTree tree(mesh);
     const DistanceField field = field_of(tree, 40);
     const FieldLayout& layout = field.layout();
@@ -126,7 +127,8 @@ TEST_CASE("nodes of a field are exact, in the band and at the corners of blocks,
 TEST_CASE("every point of the band has a fine answer, every answer keeps its stated bound") {
   Random random(4);
   for (const auto& [name, mesh] : solids()) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const AabbTree tree(mesh);
     const DistanceField field = field_of(tree, 30);
     const Aabb box = tree.bounds();
@@ -232,7 +234,8 @@ TEST_CASE("the error between nodes falls with the square of the cells where the 
 
 TEST_CASE("parts that overlap are reported and count as their union, clean solids report none") {
   for (const auto& [name, mesh] : solids()) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const AabbTree tree(mesh);
     const DistanceField field = field_of(tree, 30);
     CHECK((field.report().overlapped_nodes > 0) == (std::string_view(name) == "overlapping balls"));

@@ -136,7 +136,8 @@ TEST_CASE("a wrap is a solid with all of its mesh inside, no farther from it tha
   double gap = 0;
   for (size_t i = 0; i < meshes.size(); i += test::only_to_run() ? 3 : 1) {
     const auto& [name, mesh] = meshes[i];
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const auto shared = std::make_shared<const TriangleMesh>(mesh);
     // Every other one back from a ball that is much wider than the first surface stands off.
     gap = gap > 0.1 ? 0.05 : 0.8;

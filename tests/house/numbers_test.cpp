@@ -64,9 +64,9 @@ TEST_CASE("a name in tolerances.hpp has one value in its namespace") {
       if (std::regex_search(code, m, space)) scope = m[1];
       for (std::sregex_iterator it(code.begin(), code.end(), constant), end; it != end; ++it) {
         const std::string name = scope + "::" + (*it)[1].str(), value = (*it)[2];
-        const auto [first, is_new] = seen.try_emplace(name, value, entry.path().string());
-        CHECK_MESSAGE(first->second.first == value, name, " is ", first->second.first, " in ",
-                      first->second.second, " and ", value, " in ", entry.path().string());
+        const auto& first = seen.try_emplace(name, value, entry.path().string()).first->second;
+        CHECK_MESSAGE(first.first == value, name, " is ", first.first, " in ", first.second,
+                      " and ", value, " in ", entry.path().string());
       }
     }
   }

@@ -39,7 +39,7 @@ struct BlockCase {
     for (uint32_t i = 0; i < blocks; first += sizes[i++])
       for (uint32_t r = 0; r < sizes[i]; ++r)
         for (const uint32_t body : {ends[i].first, ends[i].second})
-          for (int k = 0; k < 6; ++k) {
+          for (uint32_t k = 0; k < 6; ++k) {
             const bool copied = i > 0 && i <= copies;
             J(first + r, 6 * body + k) = copied ? J(r, 6 * body + k) : random.uniform(-1, 1);
           }

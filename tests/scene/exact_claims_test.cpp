@@ -72,7 +72,8 @@ TEST_CASE("slope_cone: nothing creeps below the cone, above it blocks slide as C
   run(s, seconds);
   for (size_t i = 0; i < 3; ++i) {
     const auto& [name, mu] = pairs[i];
-    CAPTURE(mu);
+    const auto& shown_mu = mu;
+    CAPTURE(shown_mu);
     CHECK((place(s, fmt::format("below_{}", name)) - held[i]).norm() < 1e-9);
     const double slope = std::atan(mu) + 0.1 * M_PI / 180;
     const double acceleration = gravity * (std::sin(slope) - mu * std::cos(slope));

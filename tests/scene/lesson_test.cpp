@@ -63,7 +63,8 @@ TEST_CASE("faults of lessons have line, path and cure") {
       {question(R"("answer": "one", "tolerance": 1)"), "lesson.steps[1].question.answer"},
   };
   for (const auto& [lesson, words] : wrong) {
-    INFO(lesson);
+    const auto& step = lesson;
+    INFO(step);
     const SceneRead read = read_scene(with_lesson(lesson), "a.json");
     REQUIRE_FALSE(read.ok());
     const std::string text = all_text(read.faults);

@@ -160,7 +160,7 @@ TEST_CASE("outline: what can be added can be left out again, and most of it is a
   });
   CHECK(absent.size() > 400);
   size_t good = 0, tried = 0;
-  const size_t step = std::max<size_t>(1, absent.size() / scaled_count(160));
+  const size_t step = std::max<size_t>(1, absent.size() / size_t(scaled_count(160)));
   for (size_t i = 0; i < absent.size(); i += step) {
     CAPTURE(text_of(absent[i]));
     const auto with = with_added(text, absent[i]);
@@ -335,7 +335,8 @@ TEST_CASE("renaming: whatever has a name gets another, wherever it is named, and
       {"joints", "hinge"},   {"forces", "rope"},     {"particles", "dust"}, {"emitters", "sparks"},
       {"sinks", "drain"},    {"sensors", "near"},    {"cameras", "main"}};
   for (const auto& [list, name] : things) {
-    CAPTURE(std::string(list));
+    const std::string shown_list = list;
+    CAPTURE(shown_list);
     const auto there = renamed(named_scene, list, name, "other");
     REQUIRE_MESSAGE(there.ok(), test::why_not(there));
     CHECK(faults_of(*there) == "");

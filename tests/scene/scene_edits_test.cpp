@@ -78,7 +78,8 @@ TEST_CASE("saving without a change gives the same bytes, one value is one line")
       const auto before = scene.world->body_def(id);
       REQUIRE(before.has_value());
       if (before->type != BodyType::dynamic || tried++ > 3) continue;
-      CAPTURE(body);
+      const auto& shown_body = body;
+      CAPTURE(shown_body);
       BodyDef after = *before;
       after.mass = 7.25;
       const std::string changed = saved(text, file, {ChangedBody{body, *before, after}});

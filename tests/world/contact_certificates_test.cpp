@@ -26,7 +26,8 @@ Vec3 sum_on_b(const ContactCertificates& c) {
 
 TEST_CASE("certificates of a world: a column presses with its weight, under both steppers") {
   for (const auto& [stepper, tolerance] : {std::pair{"event", 1e-9}, {"realtime", 1e-3}}) {
-    CAPTURE(stepper);
+    const auto& shown_stepper = stepper;
+    CAPTURE(shown_stepper);
     TestWorld w(settings_of(stepper));
     w.ground();
     double weight = 0;
@@ -50,8 +51,10 @@ TEST_CASE(
     "certificates of a world: they say whether a block holds or slides, and how far in the cone") {
   for (const auto& [stepper, slope] :
        {std::pair{"event", 0.3}, {"event", 0.8}, {"realtime", 0.3}, {"realtime", 0.8}}) {
-    CAPTURE(stepper);
-    CAPTURE(slope);
+    const auto& shown_stepper = stepper;
+    CAPTURE(shown_stepper);
+    const auto& shown_slope = slope;
+    CAPTURE(shown_slope);
     const double theta = std::atan(slope);
     TestWorld w(settings_of(stepper, {9.81 * std::sin(theta), -9.81 * std::cos(theta), 0}));
     w.ground();

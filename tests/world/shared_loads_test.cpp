@@ -64,7 +64,7 @@ struct Door : TestWorld {
 
 TEST_CASE("a door hangs on both of its hinges alike") {
   std::array<std::vector<JointFrame>, 2> by;
-  for (const size_t i : {0, 1}) {
+  for (const size_t i : {0u, 1u}) {
     INFO(i);
     Door w(i == 0 ? "event" : "realtime");
     w.run(0.2);
@@ -74,7 +74,7 @@ TEST_CASE("a door hangs on both of its hinges alike") {
       CHECK(j.mean_force.y() == doctest::Approx(10 * g).epsilon(1e-6));
     CHECK(std::fabs(by[i][0].mean_force.x() + by[i][1].mean_force.x()) < 1e-6);
   }
-  for (const size_t k : {0, 1}) {
+  for (const size_t k : {0u, 1u}) {
     CHECK((by[0][k].mean_force - by[1][k].mean_force).norm() < 1e-3 * 20 * g);
     CHECK((by[0][k].mean_torque - by[1][k].mean_torque).norm() < 1e-3 * 20 * g);
   }

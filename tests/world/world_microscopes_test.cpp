@@ -196,7 +196,8 @@ TEST_CASE("the steps of a descent have the plain query's counts and find what br
   const auto mesh = (*ring)->polyhedral()->surface().mesh;
   for (const auto& [algorithm, kind] :
        {std::pair{"descent", "aabb"}, {"descent_obb", "obb"}, {"descent_sphere", "sphere"}}) {
-    CAPTURE(algorithm);
+    const auto& shown_algorithm = algorithm;
+    CAPTURE(shown_algorithm);
     const MicroscopeEntry& entry = *find_microscope(algorithm);
     CHECK(entry.of_pair()->refusal(**ring, **ring) == "");
     const MicroscopeRecording r = entry.record(slide);

@@ -78,7 +78,8 @@ void judge(const std::string& text, const std::string& name, Outcomes& out) {
 TEST_CASE("damaged robot files are read or refused with a cause") {
   for (const auto& [text, name] :
        {std::pair(whole_urdf, "r.urdf"), std::pair(whole_mjcf, "m.xml")}) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     Outcomes whole;
     judge(text, name, whole);
     CHECK(whole.built == 1);

@@ -46,7 +46,7 @@ TEST_CASE("the farthest frame does not overflow") {
 TEST_CASE("frames until a tick are those that counting one by one finds") {
   for (const Fraction fps : {Fraction{30, 1}, {60, 1}, {25, 1}, {30000, 1001}, {1000, 7}, {1, 3}})
     for (const TickRate rate : {TickRate{60, 1}, {240, 1}, {1000, 3}})
-      for (const uint64_t tick : {0, 1, 2, 59, 60, 1001}) {
+      for (const uint64_t tick : {0u, 1u, 2u, 59u, 60u, 1001u}) {
         uint64_t counted = 0;
         while (frame_time(counted, fps, rate).last_tick() <= tick) ++counted;
         CHECK(frames_until(tick, fps, rate) == counted);

@@ -221,7 +221,7 @@ TEST_CASE("Ctrl-C leaves all slices of a distance field or none") {
                                       "0.01", "--slices", slices.string()};
   ProgramOptions options;
   // When the folder is there, which is before anything is computed, and when a slice is.
-  for (const size_t least : {0, 1}) {
+  for (const size_t least : {0u, 1u}) {
     options.signal_when = [&] {
       return fs::exists(slices) && files_of(slices).size() >= least ? SIGINT : 0;
     };

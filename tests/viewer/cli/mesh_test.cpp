@@ -189,7 +189,8 @@ TEST_CASE("our own meshes: integrals, hulls and trees") {
     CHECK(ratio < 1);
     const auto triangles = m["triangles"].get<double>();
     for (const auto& [kind, tree] : m["hierarchies"].items()) {
-      CAPTURE(kind);
+      const auto& shown_kind = kind;
+      CAPTURE(shown_kind);
       CHECK(tree["nodes"].get<size_t>() + 1 == 2 * tree["leaves"].get<size_t>());
       CHECK(tree["bytes"].get<double>() ==
             doctest::Approx(tree["bytes_per_triangle"].get<double>() * triangles));
@@ -338,7 +339,8 @@ TEST_CASE("what cannot be loaded is 3, wrong usage 2, and stdout stays empty") {
       {"huge.off", "OFF\n2000000000 2000000000 0\n"},
       {"strange.xyz", "1 2 3"},
   };
-  for (const auto& [name, text] : bad) {
+  for (const auto& [file, text] : bad) {
+    const auto& name = file;
     const ProgramRun run = tumble_program({"mesh", write_text(folder / name, text), "--json"});
     CHECK_MESSAGE(run.code == 3, name << ": " << run.code << " " << run.err);
     CHECK_MESSAGE(run.out.empty(), name);

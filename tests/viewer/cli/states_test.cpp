@@ -80,7 +80,8 @@ TEST_CASE("pictures drawn from states are those of a run that simulates, to the 
   for (const auto& [fps, look] :
        {std::pair{std::string("30"), Arguments{"--overlay", "contacts,islands,aabbs"}},
         {"40", {"--camera", "near"}}}) {
-    CAPTURE(fps);
+    const auto& shown_fps = fps;
+    CAPTURE(shown_fps);
     const std::string states = "states" + fps;
     const ProgramRun saved = s.simulate(states, {"--seconds", "0.5", "--fps", fps});
     REQUIRE_MESSAGE(saved.code == 0, saved.err);

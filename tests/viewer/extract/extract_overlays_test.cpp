@@ -363,7 +363,7 @@ TEST_CASE("what is not finite or has flown away sets no scale") {
   m.add(shape(ShapeType::sphere), {2, 1, 0});
   const Aabb home = interesting_bounds(m.make());
   CHECK(home.max.x() > 2);
-  for (const size_t gone : {0, 1}) {
+  for (const size_t gone : {0u, 1u}) {
     FrameMaker later = m;
     later.bodies[gone].pose.x = Vec3(1e6, 5e5, 0);
     const Aabb seen = interesting_bounds(later.make(), home);

@@ -63,7 +63,8 @@ double degrees_between(const Vec3f& a, const Vec3& b) {
 TEST_CASE("friction cones: the opening is the coefficient, the force is inside or on the cone") {
   const auto frame = blocks_on_slope();
   for (const auto& [name, friction] : {std::pair{"slider", 0.3}, {"sticker", 0.6}}) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const bool slides = friction < std::tan(25 * M_PI / 180);
     const RenderScene scene = cones_of(*frame, name);
     REQUIRE(scene.lines.size() == 4 * lines_of_cone);

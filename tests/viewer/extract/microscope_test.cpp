@@ -129,7 +129,8 @@ TEST_CASE("what a world says under the microscope is drawn, with its colours, on
   REQUIRE(renderer.ok());
   for (const auto& [algorithm, body] :
        {std::pair{"dantzig", "low"}, {"baraff", "low"}, {"first_event", "ball"}, {"dfsph", ""}}) {
-    CAPTURE(std::string(algorithm));
+    const std::string shown_algorithm = algorithm;
+    CAPTURE(shown_algorithm);
     ExtractOptions options;
     MicroscopeSetup& setup = options.microscope.emplace();
     setup.algorithm = algorithm;

@@ -175,7 +175,7 @@ TEST_CASE("stepping back from a restored moment goes the way that led to it") {
   for (int round = 0; round < 2; ++round) {
     session.restore(kept);
     CHECK(hash_of(session) == way[20]);
-    for (const uint64_t tick : {19, 13, 11, 6, 4, 1, 0}) {
+    for (const uint64_t tick : {19u, 13u, 11u, 6u, 4u, 1u, 0u}) {
       session.seek(tick);
       CHECK_MESSAGE(hash_of(session) == way[tick], "tick ", tick);
       session.restore(kept);

@@ -328,7 +328,7 @@ TEST_CASE("a pendulum clock is built in the window: it swings at its period and 
   b.check_round_trip(0);
   // The period of small swings: of the rod with the bob, about the pivot.
   const auto& frame = *b.world().frame();
-  double mass = 0, moment = 0, inertia = 0;
+  double moment = 0, inertia = 0;
   double pivot = 0;
   for (const JointFrame& joint : *frame.joints)
     if (joint.name == "revolute_1") pivot = joint.frame_b.x.y();
@@ -337,7 +337,6 @@ TEST_CASE("a pendulum clock is built in the window: it swings at its period and 
     const RigidBody& body = *b.world().body(id);
     const double arm = pivot - body.pose.x.y(), m = 1 / body.inverse_mass;
     const double own = 1 / (body.inverse_inertia_world()(2, 2));
-    mass += m;
     moment += m * arm;
     inertia += own + m * arm * arm;
   }

@@ -119,7 +119,8 @@ TEST_CASE("each panel is the same list on every device, and in pixels a page tha
   auto device = make_gl_device(*context->context);
   REQUIRE(device.ok());
   for (const auto& [name, shown] : all_shown(**device)) {
-    CAPTURE(name);
+    const auto& shown_name = name;
+    CAPTURE(shown_name);
     const bool wall_time = name == "statistics";  // no two runs share it
     const bool own_path = name == "save";         // shows the folder of this test
     if (!wall_time && !own_path) CHECK(shown.list == expected.at(name).list);

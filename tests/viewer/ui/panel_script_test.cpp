@@ -219,15 +219,18 @@ TEST_CASE("what is said of a button of the bar lies over no cross of a panel") {
     const auto widgets = rig.app->ui().widgets();
     for (const auto& [button, place] : widgets) {
       if (!button.starts_with("bar.") && !button.starts_with("transport.")) continue;
-      CAPTURE(button);
+      const auto& shown_button = button;
+      CAPTURE(shown_button);
       rig.play("move " + button + "\nwait 3");
       const auto tooltip = rig.app->ui().find("tooltip");
       if (!tooltip) continue;
       ++said;
       CHECK(tooltip->x >= 0);
       CHECK(tooltip->x + tooltip->width <= float(width));
-      for (const auto& [name, cross] : rig.app->ui().widgets())
-        if (name.ends_with(".close")) CHECK_MESSAGE(!tooltip->overlaps(cross), name);
+      for (const auto& [name, cross] : rig.app->ui().widgets()) {
+        const auto& shown_name = name;
+        if (name.ends_with(".close")) CHECK_MESSAGE(!tooltip->overlaps(cross), shown_name);
+      }
     }
   }
   CHECK(said > 20);

@@ -80,7 +80,8 @@ TEST_CASE("a part that loses a name is described anew, and can be changed afterw
                                    {"forces", "pull"}}) {
     const PartDescription part = *find_part(parts, list, name);
     const Status done = live->set(world, parts, name, part, &part);
-    CHECK_MESSAGE(done.ok(), name);
+    const std::string shown_name = name;
+    CHECK_MESSAGE(done.ok(), shown_name);
   }
   // The file has lost the names alone.
   const auto saved = save_edits(scene_text, "x.json", *edits);

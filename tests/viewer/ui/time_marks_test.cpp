@@ -14,7 +14,7 @@ using namespace tumble;
 
 TEST_CASE("bookmarks stand by tick, one a tick, and a span never runs backwards") {
   TimeMarks marks;
-  for (const uint64_t tick : {30, 10, 20}) marks.toggle(tick);
+  for (const uint64_t tick : {30u, 10u, 20u}) marks.toggle(tick);
   REQUIRE(marks.bookmarks.size() == 3);
   CHECK(marks.bookmarks[0].tick == 10);
   CHECK(marks.bookmarks[2].tick == 30);
