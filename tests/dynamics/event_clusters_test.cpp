@@ -222,13 +222,13 @@ TEST_CASE("clusters: the same bits for 1 and 4 threads") {
     w.floor(0.4, 0.3);
     Random random(3);
     for (int i = 0; i < 14; ++i) {
-      const Vec3 x(random.uniform(-0.5, 0.5), 0.3 + 0.25 * i, random.uniform(-0.5, 0.5));
+      const Vec3 x{random.uniform(-0.5, 0.5), 0.3 + 0.25 * i, random.uniform(-0.5, 0.5)};
       BodyDef d = body(i % 2 ? sphere(0.12) : box(0.15, 0.1, 0.12), x, 0.4, 0.3);
       d.angular_velocity = random_vector(random, 5);
       d.velocity = random_vector(random, 2);
       w.add(d);
     }
-    w.run(0.3);
+    w.run(0.5);
     CHECK(w.windows > 0);
     ends.push_back(w.bodies);
   }

@@ -38,7 +38,7 @@ class Fluid {
     law_.cutoff = 3;
     Random r(11);
     for (size_t i = 0; i < x_.size(); ++i)
-      v_.push_back(Vec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)));
+      v_.push_back(Vec3{r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)});
     Vec3 mean = Vec3::Zero();
     for (const Vec3& v : v_) mean += v / double(v_.size());
     for (Vec3& v : v_) v -= mean;
@@ -98,7 +98,8 @@ TEST_CASE("pair potentials: the Lennard-Jones fluid has NIST's energy and pressu
     Fluid fluid(p.density);
     for (int n = 0; n < std::min(steps, 2500); ++n) {
       fluid.step();
-      if (n % 10 == 0 && n < 2000) fluid.rescale(0.87);
+      // Hot enough at first for the lattice to melt, which at the density .9 it may not do at .87.
+      if (n % 10 == 0 && n < 2000) fluid.rescale(n < 700 ? 3 : 0.87);
     }
     const double start = fluid.energy();
     double temperature = 0, energy = 0, pressure = 0;

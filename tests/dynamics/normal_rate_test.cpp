@@ -254,7 +254,7 @@ TEST_CASE("normal rates of smooth surfaces by their curvatures: ellipsoids") {
     const Ellipsoid ea = random_ellipsoid(r, a.x + 0.3 * rate_vector(r));
     // From overlapping a little to well apart.
     const Ellipsoid eb =
-        random_ellipsoid(r, ea.centre + r.uniform(0.9, 2.5) * rate_vector(r).normalized());
+        random_ellipsoid(r, ea.centre + r.uniform(0.7, 2.5) * rate_vector(r).normalized());
     b.x = eb.centre + 0.3 * rate_vector(r);
     Precise3 start = unit(precise(eb.centre - ea.centre));
     // A few fixed-point steps towards the closest points, then Newton's.
