@@ -1,5 +1,6 @@
 #include "engine/scene/mesh_import.hpp"
 
+#include "engine/core/watched.hpp"
 #include "engine/geometry/constructions/triangulate_polygon.hpp"
 #include "engine/geometry/mesh_orientation.hpp"
 #include "engine/geometry/mesh_topology.hpp"
@@ -92,6 +93,7 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& file, const Import
   if (!format) return format.error();
   auto read = (*format)->read(file);
   if (!read) return read.error();
+  tell_progress(0.3);
   for (size_t i = 0; i < read->vertices.size(); ++i) {
     Vec3& v = read->vertices[i];
     if (!v.allFinite()) {

@@ -1,6 +1,7 @@
 // What `tumble mesh` computes of several hundred models that others made (package
 // assimp-testmodels), each in a process of its own. References: edges counted with a map, signed
 // tetrahedra and areas summed one by one; what is known of a few models by hand.
+#include "engine/core/watched.hpp"
 #include "engine/scene/mesh_import.hpp"
 #include "tests/scene/child_process.hpp"
 #include "tests/support/assimp_models.hpp"
@@ -91,7 +92,12 @@ std::string doubt(const MeshFacts& f) {
 std::string verdict(const fs::path& file) {
   auto imported = import_mesh(file);
   if (!imported) return "unread";
+  std::vector<double> told;
+  const ProgressSink listen = [&](double share) { told.push_back(share); };
+  const Watched watched(&listen);
   const MeshFacts f = mesh_facts(file.string(), std::move(*imported), 2);
+  if (told.empty() || told.back() != 1 || !std::is_sorted(told.begin(), told.end()))
+    return "bad progress";
   if (const std::string why = doubt(f); !why.empty()) return "bad " + why;
   if (f.solid.solid()) {
     return fmt::format("solid {:.4f}", 0.5 * f.mass->mass / f.box.extent().prod());

@@ -1,10 +1,12 @@
 #include "engine/core/stop.hpp"
+#include "engine/core/watched.hpp"
 #include "viewer/app/command.hpp"
 #include "viewer/app/commands/file_roles.hpp"
 #include "viewer/app/drawing.hpp"
 #include "viewer/app/mesh/mesh_picture.hpp"
 #include "viewer/app/mesh/pieces_file.hpp"
 #include "viewer/app/options.hpp"
+#include "viewer/capture/progress.hpp"
 #include "viewer/capture/stop_signal.hpp"
 #include "viewer/render/overlays.hpp"
 
@@ -114,6 +116,17 @@ std::optional<int> add_parts(MeshLine& line, MeshFacts& facts) {
   return std::nullopt;
 }
 
+/// By when a mesh of a million triangles is read, of the time until its facts are there [-].
+constexpr double share_of_import = 0.3;
+
+/// Makes something, and shows its progress as that from one share of all work to another.
+template <class F>
+auto told(WorkProgress& progress, double from, double to, const F& make) {
+  const ProgressSink show = [&](double share) { progress.show(from + (to - from) * share); };
+  const Watched watched(&show);
+  return make();
+}
+
 int run_mesh(MeshLine& line) {
   MeshPicture& picture = line.picture;
   if (Status s = parse_picture_size(line.size, picture.width, picture.height); !s)
@@ -130,11 +143,15 @@ int run_mesh(MeshLine& line) {
   options.scale = line.scale;
   options.weld = line.weld;
   options.up = line.up == "z" ? UpAxis::z : line.up == "x" ? UpAxis::x : UpAxis::y;
-  auto mesh = import_mesh(line.file, options);
+  WorkProgress progress("facts about the mesh");
+  auto mesh = told(progress, 0, share_of_import, [&] { return import_mesh(line.file, options); });
+  if (!mesh || !line.wrap.empty()) progress.finish();
   if (!mesh) return report(mesh.error(), exit_bad_input);
   std::optional<WrapFacts> wrap;
   if (const auto code = add_wrap(line, mesh->mesh, wrap)) return *code;
-  MeshFacts facts = mesh_facts(line.file, *std::move(mesh), line.density);
+  MeshFacts facts = told(progress, share_of_import, 1,
+                         [&] { return mesh_facts(line.file, *std::move(mesh), line.density); });
+  progress.finish();
   facts.wrap = std::move(wrap);
   if (const auto code = add_parts(line, facts)) return *code;
   if (!line.render.empty()) {

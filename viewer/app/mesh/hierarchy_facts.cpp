@@ -1,5 +1,6 @@
 #include "viewer/app/mesh/hierarchy_facts.hpp"
 
+#include "engine/core/watched.hpp"
 #include "viewer/render/overlays.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace tumble {
 
 std::vector<HierarchyFacts> hierarchy_facts(const std::shared_ptr<const TriangleMesh>& mesh,
-                                            double hull_volume, double area) {
+                                            double hull_volume, double area, double done_before) {
   std::vector<HierarchyFacts> all;
   for (const HierarchyKind& kind : all_hierarchies()) {
     const auto& drawn = drawn_hierarchies();
@@ -30,6 +31,8 @@ std::vector<HierarchyFacts> hierarchy_facts(const std::shared_ptr<const Triangle
     if (area > 0) f.leaves_over_mesh = room.leaf_surface / area;
     f.nodes_per_line = room.nodes_per_line;
     all.push_back(f);
+    tell_progress(done_before +
+                  (1 - done_before) * double(all.size()) / double(drawn_hierarchies().size()));
   }
   return all;
 }

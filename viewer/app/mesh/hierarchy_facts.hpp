@@ -22,8 +22,9 @@ struct HierarchyFacts {
   double nodes_per_line = 0;  ///< HierarchyRoom::nodes_per_line
 };
 
-/// Builds every kind of hierarchy that has volumes and measures it. `hull_volume` 0: flat.
+/// Builds every kind of hierarchy that has volumes and measures it. `hull_volume` 0: flat. Tells
+/// its progress, from the share `done_before` to 1.
 std::vector<HierarchyFacts> hierarchy_facts(const std::shared_ptr<const TriangleMesh>& mesh,
-                                            double hull_volume, double area);
+                                            double hull_volume, double area, double done_before);
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "viewer/app/mesh/mesh_facts.hpp"
 
+#include "engine/core/watched.hpp"
 #include "engine/geometry/hull/convex_hull.hpp"
 #include "engine/scene/mesh_files/formats.hpp"
 
@@ -7,6 +8,9 @@
 
 namespace tumble {
 namespace {
+
+/// By when so much of the time of mesh_facts has passed, on a torus of a million triangles [-].
+constexpr double share_of_topology = 0.05, share_of_check = 0.35, share_of_mass = 0.5;
 
 HullFacts hull_facts(const TriangleMesh& mesh, double density) {
   HullFacts out;
@@ -36,8 +40,10 @@ MeshFacts mesh_facts(std::string file, ImportedMesh imported, double density) {
   f.cleanup = std::move(imported.cleanup);
   f.notes = std::move(imported.notes);
   f.topology = build_topology(*f.mesh);
+  tell_progress(share_of_topology);
   f.holes = find_holes(*f.mesh);
   f.solid = check_solid(*f.mesh);
+  tell_progress(share_of_check);
   f.box = bounds(*f.mesh);
   f.area = surface_area(*f.mesh);
   if (f.solid.solid()) {
@@ -46,8 +52,9 @@ MeshFacts mesh_facts(std::string file, ImportedMesh imported, double density) {
     f.mass = f.solid.status().error();
   }
   if (f.mass) f.principal = principal_axes(f.mass->inertia);
+  tell_progress(share_of_mass);
   f.hull = hull_facts(*f.mesh, density);
-  f.hierarchies = hierarchy_facts(f.mesh, f.hull.volume, f.area);
+  f.hierarchies = hierarchy_facts(f.mesh, f.hull.volume, f.area, share_of_mass);
   return f;
 }
 

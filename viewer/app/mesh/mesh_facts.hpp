@@ -49,7 +49,7 @@ struct MeshFacts {
   std::vector<RepresentationFacts> representations;  ///< when asked for
 };
 
-/// Computes all facts; the mesh must have been imported without errors.
+/// Computes all facts, and tells its progress; the mesh must have been imported without errors.
 MeshFacts mesh_facts(std::string file, ImportedMesh imported, double density);
 
 std::string mesh_text(const MeshFacts& facts);
