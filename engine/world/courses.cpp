@@ -74,7 +74,7 @@ void set_targets(WorldState& s, uint32_t slot, const JointDrives& drives) {
     rouse(s, joint.a);
     rouse(s, joint.b);
   }
-  joint.drives = std::make_shared<const JointDrives>(drives);
+  joint.drives = s.workspace.kept_drives.hold(drives);
 }
 
 /// Prescribed pose of a body at the end of the tick, and its rotation vector over the tick.
@@ -269,7 +269,7 @@ void CourseSupply::book(WorldState& s) const {
 void set_motor_targets(WorldState& s) {
   for (const uint32_t slot : s.joints.timed) {
     const JointDrives drives = drives_now(s, s.joints.defs[slot]);
-    if (usable(drives)) s.joints.joints[slot].drives = std::make_shared<const JointDrives>(drives);
+    if (usable(drives)) s.joints.joints[slot].drives = s.workspace.kept_drives.hold(drives);
   }
 }
 

@@ -12,6 +12,7 @@ void add_definitions(const WorldState& s, MemoryUse& use) {
   for (const auto& def : s.body_defs)
     if (def) use.bodies += sizeof(BodyDef) + heap_bytes(def->shapes) + def->name.capacity();
   use.joints += heap_bytes(s.joints.joints, s.joints.defs, s.joints.couplings, s.workspace.links);
+  use.joints += s.workspace.kept_drives.bytes();
 }
 
 /// Adds the memory of the last frame.

@@ -21,6 +21,7 @@
 #include "engine/world/frame.hpp"
 #include "engine/world/frame_pool.hpp"
 #include "engine/world/joint_store.hpp"
+#include "engine/world/kept_drives.hpp"
 #include "engine/world/ledger/realtime_books.hpp"
 #include "engine/world/particle_detection.hpp"
 #include "engine/world/pressed_nets.hpp"
@@ -119,6 +120,7 @@ struct Workspace {
   GrainReport grain_report;  ///< of the present tick
   SensorScratch sensors;
   std::vector<CourseMotion> courses;  ///< of the present tick
+  KeptDrives kept_drives;
 };
 
 /// The state before the present tick, which is restored if the tick fails.

@@ -143,6 +143,28 @@ TEST_CASE("a steady tick allocates nothing: gravity and a moved body that follow
   check_steady(*w.world, 60);
 }
 
+TEST_CASE("a steady tick allocates nothing: motors that follow expressions") {
+  const auto course = TimeCourse::expression("0.5 * sin(3*t)", {});
+  REQUIRE(course.ok());
+  TestWorld w;
+  std::vector<BodyId> wheels;
+  for (const MotorKind kind : {MotorKind::position, MotorKind::velocity, MotorKind::force}) {
+    const double x = double(wheels.size());
+    wheels.push_back(w.box({x, 1, 0}, {0.1, 0.1, 0.1}));
+    JointDef hinge;
+    hinge.kind = JointKind::revolute;
+    hinge.b = wheels.back();
+    hinge.frame_a.x = {x, 1, 0};
+    CoordinateMotor& motor = hinge.drives[0].motor;
+    motor.kind = kind;
+    motor.stiffness = 50, motor.damping = 2;
+    motor.course = std::make_shared<const TimeCourse>(*course);
+    REQUIRE(w->create_joint(hinge).ok());
+  }
+  check_steady(*w.world, 60);
+  for (const BodyId wheel : wheels) CHECK(w.body(wheel).omega.norm() > 0.1);
+}
+
 TEST_CASE("a steady tick allocates nothing: particles are born and die") {
   TestWorld w;
   ParticleSystemDef dust;
