@@ -170,6 +170,56 @@ TEST_CASE("what was changed here is done to the new text too") {
   check_no_faults(*device);
 }
 
+TEST_CASE("every change by others is taken up beside what was changed here, not only the first") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.delete_crate();
+  rig.play("wait 80");
+  std::string text = replaced(std::string(two_bodies), "[3, 0.5, 0]", "[2, 0.5, 0]");
+  write(rig.file, text);
+  rig.play("wait 60");
+  CHECK(says(rig, "with what was changed here"));
+  // A fault is named with its line, and what was changed here stays.
+  write(rig.file, replaced(text, "[1, 2, 9]", ""));
+  rig.play("wait 60");
+  CHECK(says(rig, "my_scene.json:9"));
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  // Mended, and changed again.
+  for (const char* place : {"[4, 0.5, 0]", "[5, 0.5, 0]"}) {
+    text = replaced(std::string(two_bodies), "[3, 0.5, 0]", place);
+    write(rig.file, text);
+    rig.play("wait 60");
+    CHECK(rig.app->session().world().find_body("crate").is_null());
+    CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(place[1] - '0'));
+  }
+  // What was changed here is taken back in the newest text, and done again.
+  rig.play("key Ctrl+Z\nwait 6");
+  CHECK_FALSE(rig.app->session().world().find_body("crate").is_null());
+  CHECK(def_of(rig, "pile").pose.x.x() == doctest::Approx(5));
+  rig.play("key Ctrl+Y\nwait 6\nkey Ctrl+S\nwait 3\nkey Ctrl+S\nwait 60");
+  const std::string saved = *read_file(rig.file);
+  CHECK(saved.find("crate") == std::string::npos);
+  CHECK(saved.find("[5, 0.5, 0]") != std::string::npos);
+  check_no_faults(*device);
+}
+
+TEST_CASE("a line that was changed here and by others is nobody's without a word") {
+  const auto device = make_null_device();
+  FileRig rig(*device);
+  rig.delete_crate();
+  rig.play("wait 80");
+  const std::string first = replaced(std::string(two_bodies), "[3, 0.5, 0]", "[2, 0.5, 0]");
+  write(rig.file, first);
+  rig.play("wait 60");
+  write(rig.file, replaced(first, "\"crate\": { \"position\": [0, 0.5, 0]",
+                           "\"crate\": { \"position\": [0, 0.7, 0]"));
+  rig.play("wait 60");
+  CHECK(says(rig, "changed by somebody else"));
+  CHECK(says(rig, "other changes of the same lines"));
+  CHECK(rig.app->session().world().find_body("crate").is_null());
+  check_no_faults(*device);
+}
+
 TEST_CASE("work that was not saved is there after the program was killed") {
   const auto device = make_null_device();
   const TempFolder elsewhere;
@@ -185,6 +235,17 @@ TEST_CASE("work that was not saved is there after the program was killed") {
     rig.play("key Ctrl+Z\nwait 80");
     CHECK(std::filesystem::is_empty(rig.unsaved()));
   }
+  // It is known whether the file is newer, and would be replaced.
+  UnsavedWork work(elsewhere.path() / "unsaved");
+  work.open(
+      {.path = file, .read_from = file, .text = *read_file(file), .on_disk = *read_file(file)},
+      false);
+  REQUIRE(work.kept().has_value());
+  CHECK_FALSE(work.kept()->older);
+  const auto written = std::filesystem::last_write_time(file);
+  std::filesystem::last_write_time(file, written + std::chrono::hours(1));
+  CHECK(work.kept()->older);
+  std::filesystem::last_write_time(file, written);
   Rig rig(*device);
   std::filesystem::copy(elsewhere.path() / "unsaved", rig.unsaved());
   rig.app->open(file.string());

@@ -2,6 +2,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/scene/resources.hpp"
+#include "engine/scene/saving/merge_texts.hpp"
 #include "viewer/capture/atomic_file.hpp"
 
 #include <chrono>
@@ -68,7 +69,7 @@ void UnsavedWork::open(const SceneFile& file, bool goes_on) {
   held_ = std::move(held);
   file_ = file;
   text_ = file.text;
-  any_ = file.text != file.on_disk;
+  any_ = opened_changed_ = file.text != file.on_disk;
   if (held_.contains(goes_on_in) && is_of_scene(goes_on_in)) keep_in_ = goes_on_in;
   if (any_ || goes_on) keep();
 }
@@ -118,7 +119,10 @@ std::optional<UnsavedWork::Kept> UnsavedWork::read_kept(const fs::path& kept) co
   if (is_anothers(kept)) return std::nullopt;
   auto text = read_file(kept);
   if (!text) return std::nullopt;
-  return Kept{*std::move(text), time_text(kept), kept, held_.contains(kept)};
+  std::error_code none;
+  const auto scene = fs::last_write_time(file_.path, none);
+  const bool older = !none && scene > fs::last_write_time(kept, none);
+  return Kept{*std::move(text), time_text(kept), kept, held_.contains(kept), older};
 }
 
 std::vector<UnsavedWork::Unnamed> UnsavedWork::kept_unnamed() const {
@@ -236,6 +240,15 @@ std::optional<std::string> UnsavedWork::text_with(const std::string& text,
   const bool in_place = file_.read_from.parent_path() == file_.path.parent_path();
   auto saved = save_edits(text, in_place ? file_.path.string() : std::string(), edits);
   return saved ? std::optional(std::move(saved->text)) : std::nullopt;
+}
+
+Result<std::string> UnsavedWork::with(const std::string& theirs) const {
+  if (const SceneRead read = read_scene(theirs, file_.path.string()); !read.ok())
+    return to_error(read.faults);
+  if (!opened_changed_)
+    if (auto text = text_with(theirs, edits_)) return *std::move(text);
+  if (auto text = merge_texts(file_.on_disk, this->text(), theirs)) return *std::move(text);
+  return Error{ErrorCode::invalid_argument, "It has other changes of the same lines", {}, {}};
 }
 
 void UnsavedWork::take(std::vector<SceneEdit> edits) {

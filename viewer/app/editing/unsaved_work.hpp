@@ -37,6 +37,7 @@ class UnsavedWork {
     std::string when;            ///< for display, local time
     std::filesystem::path file;  ///< where it is kept
     bool own = false;            ///< left by this run
+    bool older = false;          ///< the scene's file was written after it
   };
   std::optional<Kept> kept() const;
   /// Continues kept work: from now on it belongs to this run.
@@ -82,6 +83,10 @@ class UnsavedWork {
   /// The scene's text with the changes; the file's own text if there are none, or if they cannot be
   /// represented in it.
   const std::string& text() const { return expected_ ? *expected_ : text_; }
+  /// `theirs`, which somebody else wrote into the file, with the changes too: they are made to that
+  /// text value by value, or line by line where they are in the text that was opened. Error: it is
+  /// no scene, or both have changed the same lines.
+  Result<std::string> with(const std::string& theirs) const;
   /// The edits since the scene was opened, as last collected.
   const std::vector<SceneEdit>& edits() const { return edits_; }
 
@@ -113,6 +118,7 @@ class UnsavedWork {
   bool stale_ = false;  ///< the changes are not those collected last
   double since_ = 0;    ///< time since the last collection [s]
   bool any_ = false;
+  bool opened_changed_ = false;  ///< the text that was opened was not the file's
   std::future<std::vector<SceneEdit>> collected_;
 };
 

@@ -87,7 +87,9 @@ void Application::show(OpenedScene scene, bool goes_on) {
   if (scene.lesson && scene_.lesson && scene.request.scene == scene_.request.scene)
     scene.lesson->go_on_from(*scene_.lesson);
   if (scene.lesson) watchers.push_back(scene.lesson);
-  ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
+  // Closed by hand, it stays so while the scene goes on.
+  if (!goes_on || !scene.assertions || !scene_.assertions)
+    ui_.shows(PanelId::assertions) = scene.assertions != nullptr;
   const double tick_seconds = scene.world->frame()->rate.tick();
   world_.show(std::move(scene.world), std::move(watchers), scene.replay);
   if (scene.replay) ui_.toast(ToastKind::info, "A replay", {scene.replay_words});

@@ -188,20 +188,24 @@ void Application::look_at_files(double dt) {
   OpenRequest wanted = scene_.request;
   wanted.text.reset();
   if (undo_steps_.unsaved().any()) {
-    std::vector<SceneEdit> edits = undo_steps_.unsaved().edits();
-    auto both = save_edits(now, scene_.file.path.string(), edits);
-    if (!both || scene_.request.text)
-      return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else",
-                       {"What was changed here does not fit into it, and is kept: saving replaces "
-                        "the file."});
-    wanted.text = std::move(both->text);
+    auto both = undo_steps_.unsaved().with(now);
+    if (!both) {
+      std::vector<std::string> lines = lines_of(both.error().text());
+      lines.push_back("What was changed here stays as it is: saving replaces the file.");
+      return ui_.toast(ToastKind::warning, "The scene's file was changed by somebody else", lines);
+    }
+    wanted.text = *std::move(both);
   }
   SceneOpening::Cause cause;
   cause.reloads = true;
   cause.tick = world_.frame().tick;
   OpenRequest start = wanted;
   start.text.reset();
-  cause.undo_steps = undo_steps_as_choices(start, now);
+  // What is in the text that was opened, and what was done since, is taken back together.
+  if (scene_.request.text && wanted.text)
+    cause.undo_steps = {{ChoiceHistory::Way::anew, "Change the scene", start, wanted}};
+  else
+    cause.undo_steps = undo_steps_as_choices(start, now);
   cause.undo_steps_lost = cause.undo_steps.size() < undo_steps_.edits().undo_steps().size();
   open_for(std::move(cause), std::move(wanted));
 }
@@ -245,10 +249,15 @@ void Application::offer_kept_work() {
   if (scene_.file.unnamed) return offer_unnamed_work();
   const auto kept = undo_steps_.unsaved().kept();
   if (!kept) return;
+  std::vector<std::string> lines = {
+      fmt::format("They were made {}, and kept when {}.", kept->when,
+                  kept->own ? "this scene was left" : "the program ended")};
+  if (kept->older)
+    lines.push_back(
+        "The scene's file was written after that: saving them replaces what it says now.");
   question_.ask(
       {{"There are changes of this scene that were not saved",
-        {fmt::format("They were made {}, and kept when {}.", kept->when,
-                     kept->own ? "this scene was left" : "the program ended")},
+        std::move(lines),
         {{"take_up", "Go on with them"}, {"throw_away", "Throw them away"}, {"later", "Later"}}},
        {[this, kept = *kept] { take_up(kept); },
         [this, file = kept->file] { undo_steps_.unsaved().throw_away(file); }, [] {}}},
