@@ -21,6 +21,8 @@ constexpr double square_begin = 0.25, square_end = 0.45;
 constexpr int ring_pieces = 48;
 /// Dragging the centre of the scaling handles by this many pixels doubles the size.
 constexpr double doubling_pixels = 120;
+/// What is nearer than this to the place of the press is at that place [px].
+constexpr double least_pixels = 1e-6;
 /// A ray whose angle to a plane, or to an arm, is below this gives no usable point (sine).
 constexpr double least_sine = 0.05;
 /// Rings seen at a flatter angle than this are rotated by dragging along their tangent (sine).
@@ -40,6 +42,11 @@ int axis_of(Part part) {
 }
 bool is_square(Part part) {
   return part == Part::across_x || part == Part::across_y || part == Part::across_z;
+}
+/// Whether dragging an arm, a square or the centre moves along this axis.
+bool goes_along(Part part, int axis) {
+  if (part == Part::middle) return true;
+  return is_square(part) != (axis == axis_of(part));
 }
 Vec3 unit(int axis) {
   return Vec3::Unit(axis);
@@ -100,13 +107,23 @@ double snapped(double value, double step) {
 
 }  // namespace
 
+bool Displacement::is_null() const {
+  return shift == Vec3::Zero() && !turns() && scale == 1;
+}
+
+bool Displacement::turns() const {
+  return turn.vec() != Vec3::Zero();
+}
+
 Pose Displacement::moved(const Pose& pose) const {
+  // What is not changed keeps all its bits.
+  if (!turns() && scale == 1) return {pose.x + shift, pose.q};
   Vec3 from_pivot = pose.x - pivot;
   if (scale_axis)
     from_pivot += (scale - 1) * scale_axis->dot(from_pivot) * *scale_axis;
   else
     from_pivot *= scale;
-  return {pivot + turn * from_pivot + shift, (turn * pose.q).normalized()};
+  return {pivot + turn * from_pivot + shift, turns() ? (turn * pose.q).normalized() : pose.q};
 }
 
 Part Handles::hit(HandleKind kind, const Pose& frame, const View& view, double x, double y) {
@@ -185,6 +202,8 @@ void Handles::begin(const HandleSettings& settings, const Pose& frame, Part part
 }
 
 std::optional<Displacement> Handles::drag(const View& view, double x, double y, bool snap) const {
+  // Where it was pressed, rounding must not displace anything.
+  if (std::abs(x - x_) + std::abs(y - y_) < least_pixels) return Displacement{.pivot = frame_.x};
   switch (settings_.kind) {
     case HandleKind::move:
       return move(view, x, y, snap);
@@ -214,7 +233,10 @@ std::optional<Displacement> Handles::move(const View& view, double x, double y, 
   }
   if (snap) {
     Vec3 local = frame_.q.conjugate() * shift;
-    for (int i = 0; i < 3; ++i) local[i] = snapped(local[i], settings_.step);
+    // The world's axes have a grid, on which bodies come to stand; those of a body have steps.
+    const Vec3 from = settings_.own_axes ? Vec3::Zero() : frame_.x;
+    for (int i = 0; i < 3; ++i)
+      if (goes_along(part_, i)) local[i] = snapped(from[i] + local[i], settings_.step) - from[i];
     shift = frame_.q * local;
   }
   return Displacement{.pivot = frame_.x, .shift = shift};

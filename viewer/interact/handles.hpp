@@ -12,7 +12,8 @@ struct RenderScene;
 /// Kind of handles shown at the selected bodies.
 enum class HandleKind : uint8_t { none, move, turn, scale };
 
-/// Orientation of the handles, and the steps to which they snap.
+/// Orientation of the handles, and the steps to which they snap: places on a grid of the world, or
+/// displacements along a body's own axes.
 struct HandleSettings {
   HandleKind kind = HandleKind::none;
   bool own_axes = false;    ///< along the axes of the primary body, otherwise along the world's
@@ -32,6 +33,9 @@ struct Displacement {
   std::optional<Vec3> scale_axis{};  ///< unit vector; none: all directions
 
   Pose moved(const Pose& pose) const;
+  /// Whether it leaves every body where it is.
+  bool is_null() const;
+  bool turns() const;
 };
 
 /// Handles in a picture for moving, rotating and scaling: three arms or rings along the axes of a

@@ -82,6 +82,7 @@ void PointerTool::press(PointerButton button, const HeldInput& held, const View&
     fly_button_ = button;
   } else if (view.on_handle && view.on_handle(held.x, held.y)) {
     mode_ = Mode::arrange;
+    out.on_handle = true;
     out.arrange_began = true;
     out.press_x = press_x_;
     out.press_y = press_y_;

@@ -23,6 +23,7 @@ struct PointerEffects {
   bool more = false;                            ///< the click adds to the selection
   bool twice = false;                           ///< the click is the second of a double click
   std::optional<PointerBox> box;
+  bool on_handle = false;  ///< the drag of handles began on one, and not on a body
   bool arrange_began = false, arrange_moved = false, arrange_ended = false;
   bool drag_began = false, drag_moved = false, drag_ended = false;
   std::optional<Vec3> turn;  ///< angular velocity for the held body [rad/s]

@@ -49,10 +49,13 @@ void say_it_is_of_all_copies(PanelContext& context, const BodyDef& def) {
 class BodyWidgets : public ParameterWidgets {
  public:
   /// `group`: the values of this one; none: all.
-  BodyWidgets(PanelContext& context, std::string prefix, std::optional<Group> group,
+  BodyWidgets(PanelContext& context, std::string prefix, std::optional<Group> group, BodyId body,
               const BodyDef& def)
       : ParameterWidgets(context, std::move(prefix)), group_(group), copy_(is_copy(def)) {
     if (!def.name.empty()) let_pin({def.name, {}, {}});
+    const auto slot = find_slot(*context.model.frame, body);
+    const Aabb bounds = slot ? body_bounds(*context.model.frame, *slot) : Aabb{};
+    if (!bounds.empty()) set_size(bounds.extent().norm());
   }
   bool any_common = false;  ///< some of the values shown are common to all copies
 
@@ -141,7 +144,7 @@ void draw_body_values(PanelContext& context, const BodyFrame& body, const BodyIn
     const bool open = ImGui::CollapsingHeader(title);
     context.host.mark(fmt::format("inspector.group.{}", int(group)));
     if (!open) continue;
-    BodyWidgets widgets(context, "inspector", group, def);
+    BodyWidgets widgets(context, "inspector", group, body.id, def);
     edit_body_values(context, body.id, def, before, widgets);
     if (widgets.any_common) say_it_is_of_all_copies(context, def);
   }
@@ -346,7 +349,7 @@ bool draw_pinned_body_value(PanelContext& context, const Pin& pin, const std::st
     edit_shape_values(context, body.id, def, i, widgets);
     return widgets.drawn;
   }
-  BodyWidgets widgets(context, mark, std::nullopt, def);
+  BodyWidgets widgets(context, mark, std::nullopt, body.id, def);
   widgets.draw_only(pin);
   edit_body_values(context, body.id, def,
                    shown_description(body, context.model.frame->info(*slot), def), widgets);

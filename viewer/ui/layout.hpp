@@ -19,9 +19,11 @@ struct UiLayout {
   UiRect free_area;  ///< what remains for the scene between the columns [UI units]
 };
 
-/// Heights follow the contents. If a column is too short for them, the tallest panels are shortened
-/// and scroll; if that is not enough, those raised longest ago are folded, and finally left out. A
-/// narrow picture has one column.
+/// Heights follow the contents. If a column is too short for them, idle panels are left out, and
+/// the tallest are shortened and scroll; if that is not enough, those raised longest ago are
+/// folded, and finally left out. A lesson stays high enough to be read as long as other panels can
+/// fold. A narrow picture has one column. Beside two pictures, idle panels take no column from
+/// them.
 UiLayout layout_ui(double width, double height, const UiState& state);
 
 /// Whether a picture of this width [UI units] has room for panels at both edges; otherwise there is

@@ -47,6 +47,15 @@ constexpr float pin_width = 14;
 
 }  // namespace
 
+Vec3 shown_vector(const Vec3& v, std::string_view unit, double size) {
+  constexpr double rounding = 1e-5;  // below the digits that are shown, and below a pixel
+  const bool linear = unit == "m" || unit == "m/s", angular = unit == "rad/s";
+  const double scale = std::max(v.cwiseAbs().maxCoeff(), linear ? size : angular ? 1.0 : 0.0);
+  Vec3 out;
+  for (int k = 0; k < 3; ++k) out[k] = std::abs(v[k]) < rounding * scale ? 0.0 : v[k] + 0.0;
+  return out;
+}
+
 std::string label_of(std::string_view name) {
   if (name == "tick_hz") return "tick rate";
   if (name == "sleep_speed") return "sleep speed / sqrt(g r)";
@@ -177,12 +186,15 @@ void ParameterWidgets::field(bool& value, const Parameter& p) {
 void ParameterWidgets::field(Vec3& value, const Parameter& p) {
   if (skips(p)) return;
   begin(p, true, true);
-  Vec3 v(shown_number(value.x(), p), shown_number(value.y(), p), shown_number(value.z(), p));
+  Vec3 v = shown_vector(value, p.unit, size_);
+  for (int k = 0; k < 3; ++k) v[k] = shown_number(v[k], p);
+  const Vec3 shown = v;
   const float speed = float(std::max(v.cwiseAbs().maxCoeff() * 0.01, 5e-3));
   if (ImGui::DragScalarN(id(p), ImGuiDataType_Double, v.data(), 3, speed, nullptr, nullptr,
                          "%.4g") &&
       takes(fault_of(v, p), p))
-    value = v;
+    for (int k = 0; k < 3; ++k)  // the others keep all their digits
+      if (v[k] != shown[k]) value[k] = v[k];
   if (ImGui::IsItemVisible()) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
     const float third = (b.x - a.x) / 3;

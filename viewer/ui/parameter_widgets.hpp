@@ -34,6 +34,10 @@ std::optional<std::string> typed_text(PanelContext& context, const std::string& 
 std::optional<std::string> name_list(PanelContext& context, const std::string& mark,
                                      std::span<const std::string> names);
 
+/// A vector for display: components that are 0 beside the longest one, or beside `size` for
+/// lengths and velocities, are shown as 0.
+Vec3 shown_vector(const Vec3& v, std::string_view unit, double size);
+
 /// A widget for each declared parameter (core/parameters.hpp) with its unit, range and help: a
 /// visitor of a definition's declaration. Values outside the range are rejected, and the reason is
 /// shown below the field for some seconds.
@@ -46,6 +50,8 @@ class ParameterWidgets {
   void let_pin(PinOwner place) { place_ = std::move(place); }
   /// Draws only this value of that place, under a line that says whose it is.
   void draw_only(const Pin& pin) { only_ = pin; }
+  /// Size of what the values are of: lengths far below it are shown as 0 [m].
+  void set_size(double size) { size_ = size; }
   bool changed = false;  ///< a value was edited
   bool drawn = false;    ///< a value was drawn
   std::string edited;    ///< the name of that value for display
@@ -116,6 +122,7 @@ class ParameterWidgets {
 
   std::optional<PinOwner> place_;  ///< none: values are not pinned here
   std::optional<Pin> only_;
+  double size_ = 0;  ///< 0: not known
   std::string id_;
 };
 

@@ -1,5 +1,6 @@
 #include "viewer/ui/shell.hpp"
 
+#include "viewer/interact/picking.hpp"
 #include "viewer/ui/style.hpp"
 #include "viewer/ui/widgets.hpp"
 
@@ -117,6 +118,10 @@ UiRect draw_ui(PanelContext& context, double width, double height) {
     return whole;
   }
   context.state.raise_new();
+  context.state.idle[size_t(PanelId::inspector)] =
+      !find_slot(*context.model.frame, context.model.selected);
+  context.state.beside =
+      context.model.comparison && context.state.compared_as == ComparedAs::beside;
   const UiLayout layout = layout_ui(width, height, context.state);
   draw_top_bar(context, layout.top_bar);
   const UiRect free_area = draw_timeline(context, layout.free_area);

@@ -87,8 +87,9 @@ void apply_colours(ImVec4* c) {
   c[ImGuiCol_HeaderActive] = colour(pressed);
   c[ImGuiCol_Separator] = colour(line);
   c[ImGuiCol_CheckMark] = colour(accent);
-  c[ImGuiCol_SliderGrab] = colour(accent);
-  c[ImGuiCol_SliderGrabActive] = colour(accent_strong);
+  // The number of a slider is written over its knob.
+  c[ImGuiCol_SliderGrab] = colour(faded(accent, 0.35f));
+  c[ImGuiCol_SliderGrabActive] = colour(faded(accent_strong, 0.28f));
   c[ImGuiCol_ScrollbarBg] = ImVec4(0, 0, 0, 0);
   c[ImGuiCol_ScrollbarGrab] = colour(hover);
   c[ImGuiCol_ScrollbarGrabHovered] = colour(pressed);

@@ -459,6 +459,8 @@ struct UiState {
   bool search_opened = false;
   bool search_focus = false;               ///< the same, but without selecting the text
   float content_height[panel_count] = {};  ///< in the last frame; 0: unknown
+  bool idle[panel_count] = {};             ///< shows only what it is for: gives way to others
+  bool beside = false;                     ///< two worlds' pictures share the room between panels
   /// Sequence number of the last raise; the greatest is the newest.
   uint32_t raised[panel_count] = {};
   uint32_t raises = 0;

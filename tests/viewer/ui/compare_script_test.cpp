@@ -298,7 +298,25 @@ TEST_CASE("the window compares, shows where worlds part, and goes there") {
   CHECK(rig.app->comparison()->distance > 0);
   CHECK(rig.app->picture().instances.size() > alone);
   const double apart = rig.app->comparison()->worst;
+  REQUIRE(rig.app->ui().find("compare.differs.settings.gravity"));
   rig.play("click compare.go_there\nwait 3");
+  // A hair apart the ghost is wholly behind what it nearly coincides with, at the same place.
+  const RenderScene& picture = rig.app->picture();
+  REQUIRE(picture.instances.size() > alone);
+  const Vec3f eye = picture.camera.eye.cast<float>();
+  for (size_t i = alone; i < picture.instances.size(); ++i) {
+    const Vec3f ghost = picture.instances[i].transform.offset - eye;
+    float nearest = 1e9f, farther = 0, aside = 1e9f;
+    for (size_t k = 0; k < alone; ++k) {
+      const Vec3f of_a = picture.instances[k].transform.offset - eye;
+      if ((ghost - of_a).norm() >= nearest) continue;
+      nearest = (ghost - of_a).norm();
+      farther = (ghost.norm() - of_a.norm()) / of_a.norm();
+      aside = ghost.cross(of_a).norm() / of_a.squaredNorm();
+    }
+    CHECK(farther > 1e-3f);
+    CHECK(aside < 1e-3f);
+  }
   CHECK(rig.tick() == from + 1);
   CHECK(rig.app->comparison()->distance < apart);
   CHECK(rig.app->comparison()->distance > 0);

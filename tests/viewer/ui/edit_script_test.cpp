@@ -565,3 +565,35 @@ TEST_CASE(
   CHECK(has(rig, "box_2"));
   check_no_faults(*device);
 }
+
+TEST_CASE("after a change the contacts are not told until the next tick, and springs are listed") {
+  const auto device = make_null_device();
+  Rig rig(*device);
+  rig.picture = {1400, 900, 1};
+  const std::string file = (rig.folder.path() / "hung.json").string();
+  REQUIRE(write_file(file, R"({"tumble_scene": 1,
+    "bodies": {
+      "ground": {"type": "static", "shape": {"type": "half_space"}},
+      "box": {"position": [0, 0.5, 0], "shape": {"type": "box", "size": [1, 1, 1]}},
+      "bob": {"position": [2, 2, 0], "shape": {"type": "sphere", "radius": 0.3}}},
+    "forces": {
+      "up": {"type": "spring", "a": {"point": [2, 4, 0]}, "b": {"body": "bob"}, "stiffness": 2000},
+      "over": {"type": "spring", "a": {"body": "box"}, "b": {"body": "bob"}}},
+    "cameras": {"main": {"position": [0, 2, 9], "target": [0, 1.2, 0]}}})")
+              .ok());
+  rig.app->open(file);
+  const auto untold = [&] { return rig.app->ui().find("inspector.contacts.unknown").has_value(); };
+  rig.play("wait 3\nkey Space\nclick body:box\nwait 3");
+  CHECK_FALSE(untold());
+  CHECK(rig.app->ui().find("inspector.spring.0"));
+  CHECK_FALSE(rig.app->ui().find("inspector.spring.1"));
+  rig.play("key G\nwait 2\ndrag handle:y 0 -40\nwait 3");
+  CHECK(untold());
+  rig.play("key .\nwait 3");
+  CHECK_FALSE(untold());
+  rig.play("key Esc\nclick body:bob\nwait 3\nclick inspector.spring.1\nwait 2");
+  CHECK(rig.app->ui().find("inspector.spring.1.other"));
+  rig.play("click inspector.spring.1.other\nwait 3");
+  CHECK(rig.app->selected() == rig.app->session().world().find_body("box"));
+  check_no_faults(*device);
+}

@@ -32,6 +32,7 @@ std::optional<Displacement> dragged(HandleKind kind, Part part, const Handles::V
                                     const Vec3& to, bool snap = false) {
   HandleSettings settings;
   settings.kind = kind;
+  settings.own_axes = true;
   const Vec3 from =
       project(view.camera, Handles::grip(kind, frame, part, view), view.width, view.height);
   CHECK(Handles::hit(kind, frame, view, from.x(), from.y()) == part);
@@ -67,6 +68,40 @@ TEST_CASE("arms and squares move what is dragged to the point under the pointer"
     REQUIRE(snapped);
     CHECK((snapped->shift - across).norm() < 1e-9);
   }
+}
+
+TEST_CASE("along the world's axes bodies snap to places on a grid, and only where they move") {
+  const Pose at{Vec3(0.3003, 1.2207, -0.4001), Quat::Identity()};
+  const Handles::View view = looking_from(Vec3(6, 4, 8));
+  HandleSettings settings;
+  settings.kind = HandleKind::move;
+  const auto ends_at = [&](Part part, const Vec3& shift) {
+    const Vec3 grip = Handles::grip(HandleKind::move, at, part, view);
+    const Vec3 from = project(view.camera, grip, view.width, view.height);
+    const Vec3 to = project(view.camera, grip + shift, view.width, view.height);
+    Handles handles;
+    handles.begin(settings, at, part, view, from.x(), from.y());
+    const auto way = handles.drag(view, to.x(), to.y(), true);
+    REQUIRE(way);
+    return way->moved(at).x;
+  };
+  CHECK((ends_at(Part::x, Vec3(0.52, 0, 0)) - Vec3(0.8, 1.2207, -0.4001)).norm() < 1e-12);
+  CHECK((ends_at(Part::across_y, Vec3(0.52, 0, 0.33)) - Vec3(0.8, 1.2207, -0.1)).norm() < 1e-12);
+}
+
+TEST_CASE("a displacement by nothing changes no bit of a pose") {
+  const Pose pose{Vec3(0.1, 0.7, -1.0 / 3), axis_angle(Vec3(1, 2, -1).normalized(), 0.7)};
+  Displacement way{.pivot = Vec3(7, 1.0 / 3, 1e3)};
+  CHECK(way.is_null());
+  Pose uneven = pose;
+  uneven.q.coeffs() *= 1 + 3e-16;  // as normalising would change it
+  CHECK(way.moved(uneven).x == uneven.x);
+  CHECK(way.moved(uneven).q.coeffs() == uneven.q.coeffs());
+  way.shift = Vec3(1, 0, 0);
+  CHECK_FALSE(way.is_null());
+  CHECK(way.moved(uneven).q.coeffs() == uneven.q.coeffs());
+  CHECK_FALSE(Displacement{.turn = axis_angle(Vec3::UnitX(), 1e-9)}.is_null());
+  CHECK_FALSE(Displacement{.scale = 1.1}.is_null());
 }
 
 TEST_CASE("rings turn about their axis, seen from the side too") {

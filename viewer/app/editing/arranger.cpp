@@ -49,14 +49,15 @@ std::optional<Pose> Arranger::frame_of(const Frame& shown, const Selection& sele
 }
 
 void Arranger::begin(const Frame& shown, const Selection& selection, const HandleSettings& settings,
-                     const Handles::View& view, double x, double y) {
+                     const Handles::View& view, double x, double y, bool on_handle) {
   const auto frame = frame_of(shown, selection, settings);
   if (!frame) return;
   active_ = true;
   frame_ = *frame;
   bodies_ = selection.all();
   start_ = std::make_shared<Start>();
-  const Handles::Part part = Handles::hit(settings.kind, frame_, view, x, y);
+  const Handles::Part part =
+      on_handle ? Handles::hit(settings.kind, frame_, view, x, y) : Handles::Part::none;
   if (part != Handles::Part::none) handles_.begin(settings, frame_, part, view, x, y);
   const auto slot = find_slot(shown, selection.main());
   bounds_ = body_bounds(shown, *slot);
@@ -68,7 +69,7 @@ std::optional<Displacement> Arranger::drag(const HandleSettings& settings,
                                            const std::optional<Pick>& hit) {
   if (!active_) return std::nullopt;
   const auto way = asked(settings, view, x, y, snap, hit);
-  if (way) last_ = way;
+  if (way && (last_ || !way->is_null())) last_ = way;
   return way;
 }
 

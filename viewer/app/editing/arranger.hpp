@@ -25,16 +25,19 @@ class Arranger {
   static std::optional<Pose> frame_of(const Frame& shown, const Selection& selection,
                                       const HandleSettings& settings);
 
-  /// Begins a drag at a point of the picture: on a handle, or on the body itself.
+  /// Begins a drag at a point of the picture: on a handle, or on the body itself. A body that was
+  /// not selected had no handles when it was pressed, so it is not for the point to decide.
   void begin(const Frame& shown, const Selection& selection, const HandleSettings& settings,
-             const Handles::View& view, double x, double y);
+             const Handles::View& view, double x, double y, bool on_handle);
   bool active() const { return active_; }
   /// The displacement that corresponds to the pointer's place. `hit`: what is under it, apart from
   /// the bodies being moved.
   std::optional<Displacement> drag(const HandleSettings& settings, const Handles::View& view,
                                    double x, double y, bool snap, const std::optional<Pick>& hit);
-  /// The last displacement.
+  /// The last displacement; none: nothing has been displaced yet.
   const std::optional<Displacement>& last() const { return last_; }
+  /// How far the primary body was from a point when the drag began [m].
+  double distance_from(const Vec3& eye) const { return (frame_.x - eye).norm(); }
   std::span<const BodyId> bodies() const { return bodies_; }
   void end();
 

@@ -50,6 +50,10 @@ std::optional<EditHistory::Back> EditHistory::undo(Session& session, std::vector
   return go(session, done_, undone_, std::move(selected));
 }
 
+void EditHistory::leave_newest(Session& session) {
+  if (undo(session, {})) undone_.pop_back();
+}
+
 std::optional<EditHistory::Back> EditHistory::redo(Session& session, std::vector<BodyId> selected) {
   return go(session, undone_, done_, std::move(selected));
 }

@@ -34,6 +34,8 @@ class EditHistory {
   std::optional<Back> undo(Session& session, std::vector<BodyId> selected);
   /// Redoes the change undone last; empty if there is none.
   std::optional<Back> redo(Session& session, std::vector<BodyId> selected);
+  /// Goes back to the moment before the newest change, which is forgotten.
+  void leave_newest(Session& session);
   /// Drops the newest change, which had no effect.
   void drop_newest() { done_.pop_back(); }
   /// To be called when another world is shown.

@@ -181,6 +181,8 @@ class Application {
   void show_handles(HandleKind kind);
   void arrange(const PointerEffects& effects);
   void arrange_to(double x, double y);
+  void end_arranging();
+  double placing_reach() const;
   void hold_arranged();
   void displace_selected(const Displacement& way);
   std::string selected_names() const;
@@ -209,7 +211,7 @@ class Application {
   void draw_emitters();
   void begin_building();
   void keep_hints();
-  void build_at(double x, double y, const std::optional<Pick>& hit);
+  void build_at(double x, double y, const std::optional<Pick>& pressed);
   void change_parameter(const ChangeParameter& change);
   void choose(const std::vector<std::string>& overrides, std::string what, uint64_t tick);
   void choose(OpenRequest after, std::string what, uint64_t tick);

@@ -70,9 +70,24 @@ ArrangeGestures Application::gestures() const {
 void Application::arrange(const PointerEffects& effects) {
   if (effects.arrange_began)
     tools_.arranger.begin(world_.frame(), selection_, ui_.handles, handles_view(), effects.press_x,
-                          effects.press_y);
+                          effects.press_y, effects.on_handle);
   if (effects.arrange_moved && tools_.arranger.active()) arrange_to(effects.x, effects.y);
-  if (effects.arrange_ended) tools_.arranger.end();
+  if (effects.arrange_ended) end_arranging();
+}
+
+/// A paused drag that ends where it began is no undo step.
+void Application::end_arranging() {
+  const auto& last = tools_.arranger.last();
+  if (session().paused() && last && last->is_null()) undo_steps_.leave_newest(session());
+  tools_.arranger.end();
+}
+
+/// How far away bodies are put by pointing: a pointer near the horizon means a place that is out of
+/// sight, and not that far away [m].
+double Application::placing_reach() const {
+  constexpr double views = 2.5;  // viewing distances
+  const Camera& camera = camera_.seen();
+  return views * (camera.target - camera.eye).norm();
 }
 
 void Application::arrange_to(double x, double y) {
@@ -81,9 +96,10 @@ void Application::arrange_to(double x, double y) {
   const SessionView& shown = world_.view();
   const auto hit =
       pick(*shown.from, *shown.to, shown.s, pixel_ray(view.camera, x, y, view.width, view.height),
-           1e4, tools_.arranger.bodies());
+           std::max(placing_reach(), tools_.arranger.distance_from(view.camera.eye)),
+           tools_.arranger.bodies());
   const auto way = tools_.arranger.drag(ui_.handles, view, x, y, snap, hit);
-  if (!way) return;
+  if (!way || !tools_.arranger.last()) return;
   const UndoStepEdits edits = begin_edit(undo_step_of(ui_.handles.kind) + selected_names(), true);
   tools_.arranger.apply(session(), *way, edits, tools_.refusal);
 }
@@ -99,6 +115,7 @@ void Application::hold_arranged() {
 void Application::displace_selected(const Displacement& way) {
   const auto frame = Arranger::frame_of(world_.frame(), selection_, ui_.handles);
   if (!frame) return ui_.toast(ToastKind::info, "Select a body first");
+  if (way.is_null()) return;
   Displacement about = way;
   about.pivot = frame->x;
   about.shift = frame->direction(way.shift);
@@ -114,7 +131,8 @@ void Application::copy_selected() {
             fmt::format("Copied {}: {} pastes", selected_names(), shortcut_of(Action::paste)));
 }
 
-/// Pastes onto what is under the pointer; if that is a panel or nothing, in front of the camera.
+/// Pastes onto what is under the pointer; if that is a panel, nothing or too far away, in front of
+/// the camera.
 void Application::paste() {
   if (tools_.clipboard.empty())
     return ui_.toast(ToastKind::info, fmt::format("Nothing was copied: {} copies what is selected",
@@ -125,7 +143,7 @@ void Application::paste() {
   const double y = on_scene ? pointer_.held().y : 0.5 * view.height;
   const Ray ray = pixel_ray(view.camera, x, y, view.width, view.height);
   const SessionView& shown = world_.view();
-  const auto hit = pick(*shown.from, *shown.to, shown.s, ray);
+  const auto hit = pick(*shown.from, *shown.to, shown.s, ray, placing_reach());
   PastePlace place;
   place.x =
       hit ? hit->x_world

@@ -189,7 +189,8 @@ void Application::keep_hints() {
 }
 
 /// Handles a click on the picture in building mode.
-void Application::build_at(double x, double y, const std::optional<Pick>& hit) {
+void Application::build_at(double x, double y, const std::optional<Pick>& pressed) {
+  const auto hit = pressed && pressed->distance <= placing_reach() ? pressed : std::nullopt;
   const Camera& camera = camera_.camera();
   const Ray ray = pixel_ray(camera_.seen(), x, y, layout_.area.width(), layout_.area.height());
   const double view = (camera.target - camera.eye).norm();

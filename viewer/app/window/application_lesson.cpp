@@ -37,6 +37,8 @@ void Application::show_lesson_page(bool turned) {
     instruments_.measures.clear();
     for (const Quantity& q : wants.plot) instruments_.measures.add(q, world_.frame());
     ui_.shows(PanelId::measure) = true;
+    ui_.raise(PanelId::measure);
+    ui_.raise(PanelId::lesson);  // in a low window its text goes before its curves
   }
   if (!wants.restart) return;
   session().set_paused(true);

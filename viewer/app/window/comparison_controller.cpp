@@ -17,6 +17,11 @@ namespace {
 const Vec3f ghost_colour(0.10f, 0.35f, 1.0f);
 constexpr float ghost_opacity = 0.38f, ghost_tint = 0.75f;
 
+/// Ghosts are drawn farther from the eye by this share of their distance, about two pixels' width:
+/// where B and A nearly coincide, A covers B everywhere, instead of the nearer of two faces at each
+/// pixel.
+constexpr float ghost_behind = 2e-3f;
+
 void make_ghost(Vec3f& colour) {
   colour = (1 - ghost_tint) * colour + ghost_tint * ghost_colour;
 }
@@ -166,8 +171,10 @@ void ComparisonController::draw_ghost(const SessionView& shown, const ExtractOpt
   // Where both worlds agree, the transparent copy would only cover the original.
   const Places<MeshInstance> taken(picture.instances);
   const Places<SphereInstance> taken_by_spheres(picture.spheres);
+  const Vec3f eye = picture.camera.eye.cast<float>();
   for (MeshInstance instance : picture_.instances) {
     if (taken.has(instance)) continue;
+    instance.transform.offset += ghost_behind * (instance.transform.offset - eye);
     make_ghost(instance.paint.colour);
     instance.paint.opacity = ghost_opacity * instance.paint.opacity;
     instance.casts_shadow = false;
@@ -175,6 +182,7 @@ void ComparisonController::draw_ghost(const SessionView& shown, const ExtractOpt
   }
   for (SphereInstance sphere : picture_.spheres) {
     if (taken_by_spheres.has(sphere)) continue;
+    sphere.centre += ghost_behind * (sphere.centre - eye);
     const Vec3f c = (1 - ghost_tint) * sphere.colour.head<3>() + ghost_tint * ghost_colour;
     sphere.colour = {c[0], c[1], c[2], ghost_opacity * std::min(sphere.colour[3], 1.0f)};
     picture.spheres.push_back(sphere);

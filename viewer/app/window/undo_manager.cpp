@@ -38,6 +38,12 @@ void UndoManager::drop_newest() {
   gesture_.clear();
 }
 
+void UndoManager::leave_newest(Session& session) {
+  unsaved_.look_again();
+  edits_.leave_newest(session);
+  gesture_.clear();
+}
+
 std::optional<EditHistory::Back> UndoManager::went(std::optional<EditHistory::Back> back) {
   if (back && !back->beside) {
     other_course_ = true;

@@ -39,6 +39,8 @@ class UndoManager {
   bool goes_on(std::string_view what, bool held) const;
   /// Drops the newest undo step, which has had no effect.
   void drop_newest();
+  /// Goes back to before the newest undo step, which has had no effect after all.
+  void leave_newest(Session& session);
   /// To be called when nothing is held any more: the next change is an undo step of its own.
   void end_gesture() { gesture_.clear(); }
   /// Undoes the newest change, or redoes the last undone one; empty if there is none.

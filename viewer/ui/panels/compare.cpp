@@ -1,4 +1,6 @@
 #include "engine/dynamics/simd/simd_target.hpp"
+#include "viewer/ui/curve_plots.hpp"
+#include "viewer/ui/difference_text.hpp"
 #include "viewer/ui/parameter_widgets.hpp"
 #include "viewer/ui/settings_form.hpp"
 #include "viewer/ui/style.hpp"
@@ -16,13 +18,6 @@
 namespace tumble {
 namespace {
 
-/// A JSON value for display: names without quotes.
-std::string plain(const std::string& value) {
-  if (value.empty()) return "the best";
-  if (value.front() != '"') return value;
-  return words_of(value.substr(1, value.size() - 2));
-}
-
 /// Distance for display; infinite if only one of the worlds has the body.
 std::string apart_text(double distance) {
   return std::isfinite(distance) ? quantity_text(distance, "m") : std::string("in one world only");
@@ -33,9 +28,7 @@ void draw_choices(PanelContext& context, const WorldComparison& c) {
   if (c.differences.empty()) return note("Nothing is chosen otherwise for B yet: see below.");
   small_text(context, "A and B differ in", palette::accent);
   for (const WorldDifference& d : c.differences) {
-    std::string name = d.path.substr(d.path.rfind('.') + 1);
-    name = d.path == "simd" ? "SIMD" : label_of(name);
-    note(fmt::format("{}: {} and {}", name, plain(d.value_a), plain(d.value_b)));
+    note(difference_text(d));
     context.host.mark("compare.differs." + d.path);
   }
   if (c.from_start) note("With other numbers B is another scene: both begin at its start.");
@@ -83,8 +76,8 @@ void draw_difference(PanelContext& context, const WorldComparison& c) {
       tooltip_with_key(context, "goes to that moment, and shows what the contact claims", {});
     }
   }
-  const Curve curve{"apart", palette::series[0], c.distances};
-  plot(context, "compare.distance", c.times, std::span(&curve, 1), 96, "m");
+  const PlottedCurve curve{"apart", "m", palette::series[0], c.times, c.distances};
+  plot_over_time(context, "compare.distance", std::span(&curve, 1), 110);
 }
 
 void draw_view_choice(PanelContext& context) {

@@ -95,17 +95,40 @@ void draw_contact(PanelContext& context, const ContactFrame& c, BodyId other, si
                    {});
 }
 
-/// Draws the contacts in a fixed height, so that nothing below moves while the scene runs.
+/// Contacts are found in a tick: at its end, but before changes that were made since.
+bool contacts_are_known(const UiModel& model) {
+  const uint64_t tick = model.frame->tick;
+  return tick > 0 && std::ranges::find(model.undo_step_ticks, tick) == model.undo_step_ticks.end();
+}
+
+/// Rows for as many contacts as this body has had since it was selected, one at least: what is
+/// below does not move when the first contact comes or goes, nor again and again while the scene
+/// runs.
+int contact_rows(BodyId id, size_t now) {
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID body = ImGui::GetID("##contacts.body"), rows = ImGui::GetID("##contacts.rows");
+  constexpr int least = 2, most = 4;  // with the heading
+  if (storage.GetInt(body, -1) != int(id.index)) storage.SetInt(rows, least);
+  storage.SetInt(body, int(id.index));
+  const int wanted = int(std::clamp<size_t>(now + 1, least, most));
+  storage.SetInt(rows, std::max(storage.GetInt(rows), wanted));
+  return storage.GetInt(rows);
+}
+
+/// Draws the contacts in a height that only grows while the body is selected.
 void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
   std::vector<const ContactFrame*> own;
   frame.for_contacts([&](const ContactFrame& c) {
     if (c.a == id || c.b == id) own.push_back(&c);
   });
-  section(context, fmt::format("Contacts  {}", own.size()).c_str());
+  const bool known = contacts_are_known(context.model);
+  if (!known) own.clear();
+  section(context, known ? fmt::format("Contacts  {}", own.size()).c_str() : "Contacts");
   constexpr size_t most = 50;
   const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  ImGui::BeginChild("##contacts", ImVec2(0, 4 * row));
-  if (own.empty()) note("touches nothing");
+  ImGui::BeginChild("##contacts", ImVec2(0, float(contact_rows(id, own.size())) * row));
+  if (own.empty()) note(known ? "touches nothing" : "not known until the next tick");
+  if (!known) context.host.mark("inspector.contacts.unknown");
   if (!own.empty() && ImGui::BeginTable("##contacts", 3, ImGuiTableFlags_SizingStretchSame)) {
     for (const char* title : {"with", "gap", "force"}) {
       ImGui::TableNextColumn();
@@ -121,6 +144,40 @@ void draw_contacts(PanelContext& context, const Frame& frame, BodyId id) {
   if (own.size() > most)
     small_text(context, fmt::format("and {} more", own.size() - most), palette::faint);
   ImGui::EndChild();
+}
+
+/// The body, the world or the particles at an end of a spring.
+std::string end_text(const Frame& frame, const Anchor& end) {
+  if (end.kind == Anchor::Kind::particle) return "a particle";
+  const auto slot =
+      end.kind == Anchor::Kind::body ? find_slot(frame, end.body) : std::optional<uint32_t>();
+  return slot ? frame.info(*slot).name : "the world";
+}
+
+/// Draws the springs that hang on the body, as long and as strong as they are now.
+void draw_springs(PanelContext& context, const Frame& frame, BodyId id) {
+  const auto is_own = [&](const Anchor& end) {
+    return end.kind == Anchor::Kind::body && end.body == id;
+  };
+  size_t index = 0;
+  for (const ForceFrame& force : frame.forces) {
+    const auto* spring = std::get_if<SpringDef>(&force.def);
+    if (!spring || !(is_own(spring->a) || is_own(spring->b))) continue;
+    if (index == 0) section(context, "Springs");
+    const Anchor& other = is_own(spring->a) ? spring->b : spring->a;
+    const std::string title = fmt::format("spring to {}###spring{}", end_text(frame, other), index);
+    const bool open = ImGui::CollapsingHeader(title.c_str());
+    context.host.mark(fmt::format("inspector.spring.{}", index++));
+    if (!open || force.points.size() < 2) continue;
+    const double length = (force.points[1] - force.points[0]).norm();
+    value_row("length", quantity_text(length, "m"));
+    value_row("at rest", quantity_text(spring->rest_length.value, "m"));
+    value_row("stiffness", quantity_text(spring->stiffness.value, "N/m"));
+    value_row("damping", quantity_text(spring->damping.value, "N s/m"));
+    const bool single = other.kind == Anchor::Kind::body && !(other.body == id);
+    if (single && ImGui::Button("Select the other end")) context.ask(SelectBody{other.body});
+    if (single) context.host.mark(fmt::format("inspector.spring.{}.other", index - 1));
+  }
 }
 
 void draw_buttons(PanelContext& context, BodyId id) {
@@ -188,6 +245,7 @@ void draw_inspector_panel(PanelContext& context) {
   draw_way_to_description(context, info.name);
   draw_contacts(context, frame, body.id);
   draw_joint_form(context);
+  draw_springs(context, frame, body.id);
   if (context.model.selected_def) {
     draw_body_form(context, body, *context.model.selected_def);
   } else {
